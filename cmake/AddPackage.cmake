@@ -1,0 +1,23 @@
+# thixis_add_package(<name> LAYER <n> SOURCES <files> [PUBLIC <targets>] [PRIVATE <targets>])
+#
+# One package: library thixis_<name>, alias thixis::<name>, public headers in include/thixis/<name>. A package sees only packages
+# of lower layers; anything else ends the configuration.
+function(thixis_add_package name)
+  cmake_parse_arguments(PACKAGE "" "LAYER" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  foreach(dependency ${PACKAGE_PUBLIC} ${PACKAGE_PRIVATE})
+    get_property(layer GLOBAL PROPERTY THIXIS_LAYER_${dependency})
+    if(DEFINED layer AND NOT layer STREQUAL "" AND NOT layer LESS PACKAGE_LAYER)
+      message(FATAL_ERROR "Package '${name}' (layer ${PACKAGE_LAYER}) must not depend on '${dependency}' (layer ${layer}): arrows go down.")
+    endif()
+  endforeach()
+  set_property(GLOBAL PROPERTY THIXIS_LAYER_thixis::${name} ${PACKAGE_LAYER})
+  set_property(GLOBAL APPEND PROPERTY THIXIS_PACKAGES ${name})
+
+  add_library(thixis_${name} STATIC ${PACKAGE_SOURCES})
+  add_library(thixis::${name} ALIAS thixis_${name})
+  target_include_directories(thixis_${name}
+    PUBLIC $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
+    PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src)
+  target_link_libraries(thixis_${name} PUBLIC ${PACKAGE_PUBLIC} PRIVATE ${PACKAGE_PRIVATE} $<BUILD_INTERFACE:thixis_warnings>)
+  set_target_properties(thixis_${name} PROPERTIES LAYER ${PACKAGE_LAYER} EXPORT_NAME ${name})
+endfunction()
