@@ -1,0 +1,66 @@
+#pragma once
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "thixis/algebra/fwd.hpp"
+#include "thixis/core/schema.hpp"
+
+namespace thixis::algebra {
+
+enum class SolverKind { gmres, cg, direct };
+enum class SystemForm { full, reduced };
+enum class PreconditionerKind { none, ilu, ilut, muelu };
+
+/// Block `linear` of the deck.
+struct LinearParams {
+  SolverKind solver = SolverKind::gmres;
+  SystemForm form = SystemForm::full;
+  PreconditionerKind preconditioner = PreconditionerKind::ilu;
+  int ilu_level = 0;
+  int overlap = 0;
+  double ilut_fill = 2.0;
+  int restart = 200;
+  int max_iterations = 2000;
+  int check_every = 10;
+  static const core::Schema<LinearParams>& schema();
+};
+
+/// When a Krylov loop ends: at |b - A x| <= tolerance, or as soon as `criterion`, asked every `check_every` iterations, says so.
+struct LinearStop {
+  double tolerance = 0;  ///< absolute, Euclidean norm of the unpreconditioned residual
+  int check_every = 0;   ///< 0: never ask
+  /// (x^i, i, |b - A x^i|) -> stop now? x^i is a copy and may be kept.
+  std::function<bool(const Vector& x, int iteration, double residual)> criterion;
+};
+
+struct LinearReport {
+  int iterations = 0;
+  double residual = 0;      ///< |b - A x| at the end, computed from x
+  bool converged = false;   ///< the tolerance or the criterion was met
+  bool by_criterion = false;
+  std::string reason;       ///< one clause for the log when not converged
+};
+
+/// A x = b on all ranks. Symbolic work is done once per graph, numeric work at each `set_matrix`.
+class Solver {
+ public:
+  explicit Solver(const LinearParams& params);
+  ~Solver();
+  Solver(const Solver&) = delete;
+  Solver& operator=(const Solver&) = delete;
+
+  /// Takes the values of a matrix and sets up the preconditioner. Call it again after the values have changed.
+  /// fields: unknowns per node (MueLu: PDE equations); coordinates: of the nodes (rows / fields; MueLu with several ranks), may be null.
+  void set_matrix(const Teuchos::RCP<const Matrix>& A, int fields, const Teuchos::RCP<const MultiVector>& coordinates);
+
+  /// Starts from x and overwrites it. Throws InputError for a combination that can not work, never leaves NaN in x unnoticed.
+  LinearReport solve(const Vector& b, Vector& x, const LinearStop& stop) const;
+
+  double seconds_preconditioner() const;  ///< total time spent in set_matrix
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace thixis::algebra

@@ -1,0 +1,39 @@
+#pragma once
+#include "thixis/algebra/fwd.hpp"
+#include "thixis/algebra/solver.hpp"
+
+namespace thixis::complementarity {
+
+/// A scene after discretization: find X with
+///
+///     E(X) = F,   K(X) >= 0,   G(X) >= 0,   K(X)·G(X) = 0.
+///
+/// It has as many rows as unknowns: the equation rows of E and one row for each contact point l. E may be nonlinear.
+/// The nonlinear solver sees no matrix: full, reduced and condensed forms differ only inside `linearize` and `solve`.
+class Problem {
+ public:
+  virtual ~Problem() = default;
+
+  virtual algebra::MapPtr map() const = 0;     ///< of X and of the residual
+  virtual algebra::MapPtr points() const = 0;  ///< of the contact points l: K, G, a, b, c, s; ids independent of the number of ranks are not required
+
+  /// R <- E(X) - F in the equation rows, 0 in the rows of contact points.
+  virtual void equations(const algebra::Vector& X, algebra::Vector& R) const = 0;
+  /// K_l(X), G_l(X).
+  virtual void arguments(const algebra::Vector& X, algebra::Vector& K, algebra::Vector& G) const = 0;
+  /// s_l > 0 such that K_l and s_l G_l have the same dimension and the active set is invariant under a change of units.
+  virtual void scaling(algebra::Vector& s) const = 0;
+  /// Puts one value per contact point into its row of R.
+  virtual void insert(const algebra::Vector& C, algebra::Vector& R) const = 0;
+
+  /// Sets up A = [E'(X); a_l K_l' + b_l G_l'].
+  virtual void linearize(const algebra::Vector& X, const algebra::Vector& a, const algebra::Vector& b) = 0;
+  /// Solves A dX = -R, R = [E(X) - F; C]: dX is overwritten (the loop starts from zero, that is, from X). `stop.tolerance` bounds the
+  /// residual of that system, `stop.criterion` sees the full recovered dX^i.
+  virtual algebra::LinearReport solve(const algebra::Vector& R, algebra::Vector& dX, const algebra::LinearStop& stop) = 0;
+
+  /// |(F, 0)|: what residuals are compared with.
+  virtual double reference_norm() const = 0;
+};
+
+}  // namespace thixis::complementarity
