@@ -1,0 +1,70 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "thixis/core/comm.hpp"
+#include "thixis/core/error.hpp"
+#include "thixis/core/schema.hpp"
+
+namespace thixis::core {
+
+/// A deck: Teuchos XML, read strictly. Nothing is interpreted before `parse`, which reports every mistake at once.
+class Deck {
+ public:
+  /// Collective: the root reads the file. Throws FileError if it can not be read, InputError if it is no XML or holds no parameter list.
+  static Deck read(const std::string& path, const Comm& comm = Comm());
+  /// The same for a text in memory; `name` stands in the messages. Not collective.
+  static Deck from_text(const std::string& text, const std::string& name);
+
+  /// Overrides one parameter: "method/degree=3", an array as "mesh/lower={0,0}". Missing blocks are created; the type is the schema's, and
+  /// mistakes show in `parse`. The last one wins. Throws InputError if there is no path or no '='.
+  void set(const std::string& assignment);
+
+  /// The struct that the deck describes. Throws InputError with one line per mistake, in the order of the lines:
+  /// "inputs/x.xml:14: newton/max iteration: no such parameter. Did you mean 'max iterations'?"
+  template <class P>
+  P parse(const Schema<P>& schema) const {
+    P params{};
+    fill(schema.description(), &params);
+    return params;
+  }
+
+  /// The error of a value that shows only later: "<file>:<line>: <path>: <sentence>" with the line of the nearest entry that is given.
+  InputError error(const std::string& path, const std::string& sentence) const;
+  /// Whether the parameter or block at `path` is given.
+  bool given(const std::string& path) const;
+
+  const std::string& file() const { return file_; }  ///< as given to `read`
+  std::string folder() const;                        ///< of the file, "." if it is the current one; relative paths in the deck start here
+  std::string stem() const;                          ///< the file's name without folder and extension
+
+  /// An entry of the deck: <ParameterList> or <Parameter>.
+  struct Entry {
+    std::string name;
+    bool list = false;
+    std::string type, value;  ///< of a parameter; no type: given by --set
+    int line = 0;
+    int assignment = -1;  ///< the number of the --set that made it, or -1
+    std::vector<Entry> inside;
+    const Entry* find(const std::string& member, bool is_list) const;
+  };
+  /// A mistake of form (unknown element, missing attribute, duplicate), found while reading.
+  struct Mistake {
+    int line = 0;
+    int assignment = -1;
+    std::string path, sentence;
+  };
+
+ private:
+  friend class XmlReader;
+  void fill(const Description& description, void* params) const;
+  const Entry* nearest(const std::string& path, bool& exact) const;
+  std::string message(const Mistake& mistake) const;
+
+  std::string file_;
+  Entry root_;
+  std::vector<std::string> assignments_;
+  std::vector<Mistake> mistakes_;
+};
+
+}  // namespace thixis::core
