@@ -1,0 +1,142 @@
+/// thixis: the command line (run, check, describe, cases).
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <Tpetra_Core.hpp>
+#include <cstdio>
+
+#include "registry.hpp"
+#include "thixis/core/assert.hpp"
+#include "thixis/core/deck.hpp"
+#include "thixis/core/log.hpp"
+#include "thixis/drive/run.hpp"
+#include "versions.hpp"
+
+namespace thixis {
+namespace {
+
+struct Arguments {
+  std::string deck, output, block;
+  std::vector<std::string> overrides;
+  bool quiet = false, verbose = false;
+  core::Format format = core::Format::text;
+};
+
+/// The deck with its overrides, everything judged that needs no mesh.
+std::pair<core::Deck, drive::RunParams> read_deck(const Arguments& arguments, const core::Comm& comm) {
+  auto deck = core::Deck::read(arguments.deck, comm);
+  for (const auto& assignment : arguments.overrides) deck.set(assignment);
+  auto params = deck.parse(drive::RunParams::schema());
+  if (!arguments.output.empty()) params.output.directory = arguments.output;
+  if (params.output.directory.empty()) params.output.directory = "results/" + deck.stem();
+  drive::check_served(params);
+  return {std::move(deck), std::move(params)};
+}
+
+core::ExitCode run(const Arguments& arguments, const core::Comm& comm) {
+  const auto [deck, params] = read_deck(arguments, comm);
+  const auto model = make_model(params);
+  return drive::run(params, *model, deck, comm, versions());
+}
+
+core::ExitCode check(const Arguments& arguments, const core::Comm& comm) {
+  const auto [deck, params] = read_deck(arguments, comm);
+  make_model(params);
+  core::log::info("{}: no mistakes found.", deck.file());
+  return core::ExitCode::done;
+}
+
+core::ExitCode describe(const Arguments& arguments, const core::Comm&) {
+  core::log::info("{}", core::describe(drive::RunParams::schema(), arguments.block, arguments.format));
+  return core::ExitCode::done;
+}
+
+core::ExitCode cases(const Arguments&, const core::Comm&) {
+  for (const auto& known : scene::cases())
+    if (known.model == scene::Model::membranes) core::log::info("membranes   {:<26}{}", known.name, known.sentence);
+  return core::ExitCode::done;
+}
+
+std::string version_text() {
+  std::string text;
+  for (const auto& [name, version] : versions()) text += fmt::format("{}{:<16}{}", text.empty() ? "" : "\n", name, version);
+  return text;
+}
+
+/// Parses the command line and does what it says.
+core::ExitCode dispatch(int argc, char** argv, const core::Comm& comm) {
+  using Command = core::ExitCode (*)(const Arguments&, const core::Comm&);
+  Arguments arguments;
+  Command command = nullptr;
+
+  CLI::App app{
+      "Thixis solves problems with contact and other inequality constraints.\n\n"
+      "  thixis run inputs/membranes/disk.xml                      solve a deck\n"
+      "  mpirun -n 4 thixis run DECK --set mesh/refinements=5      on four ranks, one parameter changed\n"
+      "  thixis check DECK                                         judge a deck without solving it\n"
+      "  thixis describe newton                                    every parameter of a block\n"
+      "  thixis describe --format xml > new.xml                    a deck to start from\n\n"
+      "Exit codes: 0 done, every 'expect' holds; 1 internal error; 2 command line or deck; 3 not converged;\n"
+      "4 accuracy target or an 'expect' missed; 5 input or output."};
+  app.name("thixis");
+  app.set_version_flag("--version", version_text());
+  app.require_subcommand(1);
+
+  const auto add = [&](const char* name, const char* sentence, Command action) {
+    CLI::App* sub = app.add_subcommand(name, sentence);
+    sub->callback([&command, action] { command = action; });
+    return sub;
+  };
+  const auto add_deck = [&](CLI::App* sub) {
+    sub->add_option("deck", arguments.deck, "The deck (XML)")->required();
+    sub->add_option("--set", arguments.overrides, "PATH=VALUE: override one parameter, e.g. --set method/degree=3")->take_all();
+  };
+  CLI::App* solve = add("run", "Solve a deck and write the results", run);
+  add_deck(solve);
+  solve->add_option("--output", arguments.output, "Folder of the results (default: results/<name of the deck>)");
+  solve->add_flag("--quiet", arguments.quiet, "Show the verdict only");
+  solve->add_flag("--verbose", arguments.verbose, "Show details")->excludes("--quiet");
+  add_deck(add("check", "Judge a deck without solving it; all mistakes at once", check));
+  CLI::App* explain = add("describe", "Every parameter: type, default, range, one sentence", describe);
+  explain->add_option("block", arguments.block, "A block of the deck, e.g. newton or newton/initial (default: all)");
+  explain
+      ->add_option("--format", arguments.format, "text, markdown, or xml (a deck to start from)")
+      ->transform(CLI::CheckedTransformer(
+          std::map<std::string, core::Format>{{"text", core::Format::text}, {"markdown", core::Format::markdown}, {"xml", core::Format::xml}}));
+  add("cases", "The catalogued cases", cases);
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& wanted) {  // --help, --version
+    if (comm.root()) app.exit(wanted);
+    return core::ExitCode::done;
+  } catch (const CLI::ParseError& mistake) {
+    throw core::InputError(fmt::format("thixis: {}\nRun 'thixis --help' for the commands and options.", mistake.what()));
+  }
+  if (arguments.quiet) core::log::set_level(core::log::Level::quiet);
+  if (arguments.verbose) core::log::set_level(core::log::Level::verbose);
+  return command(arguments, comm);
+}
+
+}  // namespace
+}  // namespace thixis
+
+int main(int argc, char** argv) {
+  Tpetra::ScopeGuard scope(&argc, &argv);
+#ifdef THIXIS_ASSERTIONS
+  thixis::core::enable_floating_point_traps();
+#endif
+  const thixis::core::Comm comm;
+  try {
+    return static_cast<int>(thixis::dispatch(argc, argv, comm));
+  } catch (const thixis::core::Error& error) {  // thrown on all ranks alike
+    if (comm.root()) fmt::print(stderr, "{}\n", error.what());
+    return static_cast<int>(error.code());
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "thixis: internal error on rank {}: {}\n", comm.rank(), error.what());
+  } catch (const char* error) {  // thrown by NOX
+    fmt::print(stderr, "thixis: internal error on rank {}: {}\n", comm.rank(), error);
+  }
+  if (comm.size() > 1) MPI_Abort(comm.mpi(), static_cast<int>(thixis::core::ExitCode::internal));
+  return static_cast<int>(thixis::core::ExitCode::internal);
+}

@@ -1,0 +1,45 @@
+/// The one file that names every method and every model.
+#include "registry.hpp"
+
+#include "thixis/core/error.hpp"
+#include "thixis/fem/lagrange_space.hpp"
+#include "thixis/models/membranes.hpp"
+#include "thixis/scene/membranes.hpp"
+
+namespace thixis {
+namespace {
+
+method::SpaceFactory make_method(const method::MethodParams& method) {
+  switch (method.name) {
+    case method::MethodName::fem:
+      return fem::make_lagrange_space;
+    default:
+      throw core::InputError("method/name: this version serves fem only; write fem.");
+  }
+}
+
+/// The expressions of newton/initial, null where none is given.
+std::array<scene::FieldPtr, 3> initial_fields(const drive::RunParams& params) {
+  const auto field = [&](const char* name, const std::optional<core::Formula>& formula) -> scene::FieldPtr {
+    if (!formula) return nullptr;
+    const auto& data = params.scene.data;
+    return scene::expression(std::string("newton/initial/") + name, formula->text, data ? data->centre : std::vector<double>{0, 0},
+                             data ? data->constants : std::map<std::string, double>{});
+  };
+  const auto& initial = params.newton.initial;
+  return {field("u1", initial.u1), field("u2", initial.u2), field("lambda", initial.lambda)};
+}
+
+}  // namespace
+
+std::unique_ptr<models::Model> make_model(const drive::RunParams& params) {
+  const auto make_space = make_method(params.method);
+  switch (params.scene.model) {
+    case scene::Model::membranes:
+      return models::membranes(scene::membrane_scene(params.scene), make_space, params.method, params.linear, initial_fields(params));
+    default:
+      throw core::InputError("scene/model: this version serves membranes only; write membranes.");
+  }
+}
+
+}  // namespace thixis

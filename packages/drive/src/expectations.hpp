@@ -1,0 +1,9 @@
+#pragma once
+#include "thixis/drive/stationary.hpp"
+
+namespace thixis::drive {
+
+/// The expectations that the outcome misses, a clause each: "energy error 2.1e-03 is above 2.0e-03".
+std::vector<std::string> missed(const ExpectParams& expect, const Outcome& outcome, long long cells);
+
+}  // namespace thixis::drive

@@ -1,0 +1,20 @@
+#pragma once
+#include <memory>
+
+#include "thixis/algebra/solver.hpp"
+#include "thixis/complementarity/newton.hpp"
+#include "thixis/method/space.hpp"
+#include "thixis/models/model.hpp"
+#include "thixis/scene/membranes.hpp"
+
+namespace thixis::models {
+
+/// Contact between two membranes (docs/methods/membranes.md):
+///
+///     -div(mu1 grad u1) - lambda = f1,   -div(mu2 grad u2) + lambda = f2,   u1 - u2 >= 0, lambda >= 0, (u1 - u2) lambda = 0.
+///
+/// `make_space`: the method. `initial`: expressions of the deck for the cold start (null: those of the scene, else zero).
+std::unique_ptr<Model> membranes(scene::MembraneScene scene, method::SpaceFactory make_space, method::MethodParams method,
+                                 algebra::LinearParams linear, std::array<scene::FieldPtr, 3> initial);
+
+}  // namespace thixis::models

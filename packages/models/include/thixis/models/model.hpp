@@ -1,0 +1,52 @@
+#pragma once
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "thixis/complementarity/kkt.hpp"
+#include "thixis/complementarity/problem.hpp"
+#include "thixis/mesh/mesh.hpp"
+#include "thixis/output/fields.hpp"
+
+namespace thixis::models {
+
+/// Sizes of a discretized scene, over all ranks.
+struct Sizes {
+  GlobalIndex unknowns_all = 0;     ///< all fields with the multiplier, Dirichlet values not counted
+  GlobalIndex unknowns_global = 0;  ///< rows of the Krylov system (reduced: before contact is imposed)
+  GlobalIndex nonzeros = 0;         ///< of that system; 0 before it is set up
+};
+
+/// A scene on one mesh.
+class Discretization {
+ public:
+  virtual ~Discretization() = default;
+
+  virtual complementarity::Problem& problem() = 0;
+  virtual Sizes sizes() const = 0;
+
+  /// X0 of a cold start: the deck's or the case's initial values, zero otherwise.
+  virtual Teuchos::RCP<algebra::Vector> cold_start() const = 0;
+  /// X0 from the solution on the next coarser mesh of the hierarchy.
+  virtual Teuchos::RCP<algebra::Vector> nested_start(const Discretization& coarse, const algebra::Vector& coarse_X) const = 0;
+
+  /// |||u - u_h|||, if the exact solution is known, and |||u_h|||.
+  virtual std::optional<double> energy_error(const algebra::Vector& X) const = 0;
+  virtual double energy_norm(const algebra::Vector& X) const = 0;
+  /// Everything the verifier needs, recomputed from X cell by cell.
+  virtual complementarity::KktData kkt_data(const algebra::Vector& X) const = 0;
+  /// The fields that the model can show, by name; `names` empty: all.
+  virtual std::vector<output::FieldData> fields(const algebra::Vector& X, const std::vector<std::string>& names) const = 0;
+};
+
+/// A scene before it meets a mesh.
+class Model {
+ public:
+  virtual ~Model() = default;
+  virtual std::string name() const = 0;
+  virtual std::string case_name() const = 0;  ///< empty for data of the user
+  virtual std::unique_ptr<Discretization> discretize(const mesh::Mesh& mesh) const = 0;
+};
+
+}  // namespace thixis::models

@@ -1,0 +1,21 @@
+#pragma once
+#include <memory>
+
+#include "membrane_operator.hpp"
+#include "thixis/algebra/solver.hpp"
+
+namespace thixis::models {
+
+/// One form of the linear system of a Newton step,
+///
+///     [ S1 0 -D ; 0 S2 D ; a -a b ] (d1, d2, dlambda) = -(R1, R2, C).
+class LinearizedSystem {
+ public:
+  virtual ~LinearizedSystem() = default;
+  virtual void linearize(const algebra::Vector& a, const algebra::Vector& b) = 0;
+  virtual algebra::LinearReport solve(const algebra::Vector& R, algebra::Vector& dX, const algebra::LinearStop& stop) = 0;
+  virtual GlobalIndex rows() const = 0;
+  virtual GlobalIndex nonzeros() const = 0;
+};
+
+}  // namespace thixis::models

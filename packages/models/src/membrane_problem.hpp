@@ -1,0 +1,36 @@
+#pragma once
+#include "linearized_system.hpp"
+#include "thixis/complementarity/problem.hpp"
+
+namespace thixis::models {
+
+/// The two-membrane problem as the nonlinear solver sees it: X = (u1, u2, lambda) interlaced by node, lambda in units of X3,
+/// K_l = u1_l - u2_l + (difference of the lifts, zero at unknowns), G_l = lambda_l.
+class MembraneProblem final : public complementarity::Problem {
+ public:
+  MembraneProblem(MembraneOperator membranes, const algebra::LinearParams& params,
+                  const Teuchos::RCP<const algebra::MultiVector>& coordinates);
+
+  algebra::MapPtr map() const override { return map_; }
+  algebra::MapPtr points() const override { return membranes_.map(); }
+  void equations(const algebra::Vector& X, algebra::Vector& R) const override;
+  void arguments(const algebra::Vector& X, algebra::Vector& K, algebra::Vector& G) const override;
+  /// s_l = D_l (1/S1_ll + 1/S2_ll): how far apart a unit multiplier at l alone pushes the membranes there.
+  void scaling(algebra::Vector& s) const override;
+  void insert(const algebra::Vector& C, algebra::Vector& R) const override;
+  void linearize(const algebra::Vector& X, const algebra::Vector& a, const algebra::Vector& b) override;
+  algebra::LinearReport solve(const algebra::Vector& R, algebra::Vector& dX, const algebra::LinearStop& stop) override;
+  double reference_norm() const override;
+
+  GlobalIndex rows() const;      ///< of the Krylov system
+  GlobalIndex nonzeros() const;  ///< 0 before the first linearization
+
+ private:
+  MembraneOperator membranes_;
+  algebra::LinearParams params_;
+  Teuchos::RCP<const algebra::MultiVector> coordinates_;
+  algebra::MapPtr map_;
+  std::unique_ptr<LinearizedSystem> system_;  ///< made at the first linearization: a run that only counts pays nothing for it
+};
+
+}  // namespace thixis::models

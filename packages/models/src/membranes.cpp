@@ -1,0 +1,253 @@
+#include "thixis/models/membranes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "membrane_problem.hpp"
+#include "thixis/core/error.hpp"
+#include "thixis/core/timer.hpp"
+
+namespace thixis::models {
+namespace {
+
+using algebra::MultiVector;
+using algebra::Vector;
+using method::BoundaryValues;
+using method::Coefficients;
+
+/// The scene's conditions in the order of the mesh's tags.
+struct Boundary {
+  std::vector<bool> dirichlet;
+  BoundaryValues values[2];
+};
+
+Boundary boundary_of(const scene::MembraneScene& scene, const mesh::Mesh& mesh) {
+  for (const auto& [tag, condition] : scene.boundary)
+    if (std::find(mesh.tags.begin(), mesh.tags.end(), tag) == mesh.tags.end()) {
+      std::string names;
+      for (const auto& name : mesh.tags) names += (names.empty() ? "" : ", ") + name;
+      throw core::InputError("scene/boundary/" + tag + ": the mesh has no such part of the boundary; write one of: " + names + ".");
+    }
+  Boundary boundary;
+  for (const auto& tag : mesh.tags) {
+    const auto given = scene.boundary.find(tag);
+    const auto& condition = given == scene.boundary.end() ? scene.default_boundary : given->second;
+    const bool dirichlet = condition.kind == scene::BoundaryCondition::Kind::dirichlet;
+    boundary.dirichlet.push_back(dirichlet);
+    for (int alpha = 0; alpha < 2; ++alpha) {
+      boundary.values[alpha].dirichlet.push_back(dirichlet ? condition.value[alpha] : nullptr);
+      boundary.values[alpha].neumann.push_back(dirichlet ? nullptr : condition.value[alpha]);
+    }
+  }
+  if (std::find(boundary.dirichlet.begin(), boundary.dirichlet.end(), true) == boundary.dirichlet.end())
+    throw core::InputError("scene/boundary: no part of the boundary has kind dirichlet, so the membranes are free to float away; fix at least one.");
+  return boundary;
+}
+
+/// The gap of the boundary data must not be negative where membranes are held.
+void check_boundary_gap(const Coefficients& g1, const Coefficients& g2, const mesh::Mesh& mesh) {
+  const auto upper = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), g1);
+  const auto lower = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), g2);
+  double worst = 0;
+  for (std::size_t i = 0; i < upper.extent(0); ++i) {
+    const double slack = 1e-12 * (std::abs(upper(i)) + std::abs(lower(i)));
+    if (upper(i) < lower(i) - slack) worst = std::max(worst, lower(i) - upper(i));
+  }
+  worst = mesh.comm.max(worst);
+  if (worst > 0)
+    throw core::InputError("scene: on the boundary the upper membrane lies below the lower one, g1 < g2 by up to " + std::to_string(worst) +
+                           "; give boundary data with g1 >= g2.");
+}
+
+class MembraneDiscretization final : public Discretization {
+ public:
+  MembraneDiscretization(const scene::MembraneScene& scene, const method::SpaceFactory& make_space, const method::MethodParams& method,
+                         const algebra::LinearParams& linear, const std::array<scene::FieldPtr, 3>& initial, const mesh::Mesh& mesh)
+      : scene_(scene), initial_(initial), boundary_(boundary_of(scene, mesh)) {
+    const core::Region region("assembly");
+    space_ = make_space(mesh, {boundary_.dirichlet, scene.interface_level_set, method});
+    for (int alpha = 0; alpha < 2; ++alpha) lift_[alpha] = space_->lift(boundary_.values[alpha], 0);
+    check_boundary_gap(lift_[0], lift_[1], mesh);
+    for (int alpha = 0; alpha < 2; ++alpha) {
+      body_[alpha] = Teuchos::rcp(new Vector(space_->map()));
+      space_->load(*scene_.force[alpha], boundary_.values[alpha], 0, *body_[alpha]);
+    }
+    problem_ = std::make_unique<MembraneProblem>(make_operator(), linear, space_->coordinates());
+  }
+
+  complementarity::Problem& problem() override { return *problem_; }
+
+  Sizes sizes() const override {
+    return {3 * static_cast<GlobalIndex>(space_->map()->getGlobalNumElements()), problem_->rows(), problem_->nonzeros()};
+  }
+
+  Teuchos::RCP<Vector> cold_start() const override {
+    MultiVector x(space_->map(), 3);
+    for (int field = 0; field < 3; ++field)
+      if (initial_[field]) space_->interpolate(*initial_[field], 0, *x.getVectorNonConst(field));
+    return joined(x);
+  }
+
+  Teuchos::RCP<Vector> nested_start(const Discretization& coarse_level, const Vector& coarse_X) const override {
+    const auto& coarse = dynamic_cast<const MembraneDiscretization&>(coarse_level);
+    MultiVector coarse_x(coarse.space_->map(), 3), x(space_->map(), 3);
+    split(coarse_X, coarse_x);
+    for (int field = 0; field < 3; ++field) {
+      const auto u = coarse.space_->complete(*coarse_x.getVector(field), field < 2 ? coarse.lift_[field] : coarse.nothing());
+      space_->prolongate(*coarse.space_, u, *x.getVectorNonConst(field));
+    }
+    return joined(x);
+  }
+
+  std::optional<double> energy_error(const Vector& X) const override {
+    if (!scene_.exact) return std::nullopt;
+    const core::Region region("estimate");
+    double sum = 0;
+    for (int alpha = 0; alpha < 2; ++alpha)
+      sum += space_->energy_error(*scene_.tension[alpha], membrane(X, alpha), scene_.exact->gradient[alpha], 0);
+    return std::sqrt(sum);
+  }
+
+  double energy_norm(const Vector& X) const override {
+    double sum = 0;
+    for (int alpha = 0; alpha < 2; ++alpha) sum += space_->energy(*scene_.tension[alpha], membrane(X, alpha));
+    return std::sqrt(sum);
+  }
+
+  complementarity::KktData kkt_data(const Vector& X) const override {
+    complementarity::KktData data;
+    MultiVector x(space_->map(), 3);
+    split(X, x);
+    auto gap = Teuchos::rcp(new Vector(space_->map()));
+    gap->update(1, *x.getVector(0), -1, *x.getVector(1), 0);
+    data.gap = gap;
+    data.claimed = Teuchos::rcp(new Vector(*x.getVector(2), Teuchos::Copy));
+    Vector inverse(space_->map());
+    inverse.reciprocal(space_->pairing());
+    data.gap_scale = data.multiplier_scale = 0;
+    for (int alpha = 0; alpha < 2; ++alpha) {
+      // lambda_1 = (a(u1, psi) - F1) / D,  lambda_2 = (F2 - a(u2, psi)) / D
+      Vector defect(space_->map());
+      space_->forces(*scene_.tension[alpha], membrane(X, alpha), defect);
+      const double sign = alpha == 0 ? 1 : -1;
+      defect.update(-sign, *body_[alpha], sign);
+      auto multiplier = Teuchos::rcp(new Vector(space_->map()));
+      multiplier->elementWiseMultiply(1, inverse, defect, 0);
+      data.equilibrium.push_back(multiplier);
+      data.gap_scale = std::max(data.gap_scale, x.getVector(alpha)->normInf());
+      defect.elementWiseMultiply(1, inverse, *body_[alpha], 0);
+      data.multiplier_scale = std::max({data.multiplier_scale, multiplier->normInf(), defect.normInf()});
+    }
+    if (!(data.gap_scale > 0)) data.gap_scale = 1;
+    if (!(data.multiplier_scale > 0)) data.multiplier_scale = 1;
+    return data;
+  }
+
+  std::vector<output::FieldData> fields(const Vector& X, const std::vector<std::string>& names) const override {
+    const auto wanted = [&](const char* name) {
+      return names.empty() || std::find(names.begin(), names.end(), name) != names.end();
+    };
+    for (const auto& name : names)
+      if (name != "u1" && name != "u2" && name != "lambda" && name != "gap" && name != "active")
+        throw core::InputError("output/fields: there is no field '" + name + "'; write all, none, or some of u1, u2, lambda, gap, active.");
+    const auto u1 = space_->at_vertices(membrane(X, 0)), u2 = space_->at_vertices(membrane(X, 1));
+    MultiVector x(space_->map(), 3);
+    split(X, x);
+    auto lambda = space_->at_vertices(space_->complete(*x.getVector(2), nothing()));
+    std::vector<double> gap(u1.size()), active(u1.size());
+    for (std::size_t v = 0; v < u1.size(); ++v) {
+      gap[v] = u1[v] - u2[v];
+      active[v] = gap[v] <= lambda[v] && lambda[v] > 0 ? 1 : 0;
+    }
+    std::vector<output::FieldData> fields;
+    const auto add = [&](const char* name, std::vector<double> values) {
+      if (wanted(name)) fields.push_back({name, output::Centre::vertex, std::move(values)});
+    };
+    add("u1", u1);
+    add("u2", u2);
+    add("lambda", std::move(lambda));
+    add("gap", std::move(gap));
+    add("active", std::move(active));
+    return fields;
+  }
+
+ private:
+  MembraneOperator make_operator() const {
+    MembraneOperator membranes;
+    membranes.pairing = Teuchos::rcpFromRef(space_->pairing());
+    const double* constant[2] = {scene_.tension[0]->constant(), scene_.tension[1]->constant()};
+    if (constant[0] && constant[1]) {
+      membranes.matrix[0] = membranes.matrix[1] = space_->stiffness(*scene::constant(1));
+      membranes.factor = {*constant[0], *constant[1]};
+    } else {
+      for (int alpha = 0; alpha < 2; ++alpha) membranes.matrix[alpha] = space_->stiffness(*scene_.tension[alpha]);
+    }
+    double mean[2];
+    for (int alpha = 0; alpha < 2; ++alpha) {
+      // what the Dirichlet data exert on the unknowns moves to the right
+      Vector held(space_->map());
+      space_->forces(*scene_.tension[alpha], lift_[alpha], held);
+      membranes.load[alpha] = Teuchos::rcp(new Vector(*body_[alpha], Teuchos::Copy));
+      membranes.load[alpha]->update(-1, held, 1);
+      Vector diagonal(space_->map());
+      membranes.matrix[alpha]->getLocalDiagCopy(diagonal);
+      mean[alpha] = membranes.factor[alpha] * diagonal.meanValue();
+    }
+    if (space_->map()->getGlobalNumElements() > 0)
+      for (int alpha = 0; alpha < 2; ++alpha) membranes.theta[alpha] = mean[alpha] / (mean[0] + mean[1]);
+    return membranes;
+  }
+
+  Coefficients membrane(const Vector& X, int alpha) const {
+    MultiVector x(space_->map(), 3);
+    split(X, x);
+    return space_->complete(*x.getVector(alpha), lift_[alpha]);
+  }
+  /// The multiplier has no boundary values.
+  Coefficients nothing() const { return Coefficients("thixis::models::nothing", lift_[0].extent(0)); }
+
+  Teuchos::RCP<Vector> joined(const MultiVector& x) const {
+    auto X = Teuchos::rcp(new Vector(problem_->map()));
+    join(x, *X);
+    return X;
+  }
+
+  const scene::MembraneScene& scene_;
+  const std::array<scene::FieldPtr, 3>& initial_;
+  Boundary boundary_;
+  std::unique_ptr<method::Space> space_;
+  Coefficients lift_[2];
+  Teuchos::RCP<Vector> body_[2];  ///< (f_alpha, psi_l) + Neumann data
+  std::unique_ptr<MembraneProblem> problem_;
+};
+
+class Membranes final : public Model {
+ public:
+  Membranes(scene::MembraneScene scene, method::SpaceFactory make_space, method::MethodParams method, algebra::LinearParams linear,
+            std::array<scene::FieldPtr, 3> initial)
+      : scene_(std::move(scene)), make_space_(std::move(make_space)), method_(method), linear_(linear), initial_(std::move(initial)) {
+    for (int field = 0; field < 3; ++field)
+      if (!initial_[field]) initial_[field] = scene_.initial[field];
+  }
+  std::string name() const override { return "membranes"; }
+  std::string case_name() const override { return scene_.name; }
+  std::unique_ptr<Discretization> discretize(const mesh::Mesh& mesh) const override {
+    return std::make_unique<MembraneDiscretization>(scene_, make_space_, method_, linear_, initial_, mesh);
+  }
+
+ private:
+  scene::MembraneScene scene_;
+  method::SpaceFactory make_space_;
+  method::MethodParams method_;
+  algebra::LinearParams linear_;
+  std::array<scene::FieldPtr, 3> initial_;
+};
+
+}  // namespace
+
+std::unique_ptr<Model> membranes(scene::MembraneScene scene, method::SpaceFactory make_space, method::MethodParams method,
+                                 algebra::LinearParams linear, std::array<scene::FieldPtr, 3> initial) {
+  return std::make_unique<Membranes>(std::move(scene), std::move(make_space), method, linear, std::move(initial));
+}
+
+}  // namespace thixis::models
