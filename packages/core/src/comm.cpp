@@ -39,7 +39,8 @@ double with_nan(double value, MPI_Comm comm, Reduce reduce_finite) {
 }
 void extremes(std::vector<double>& values, MPI_Op op, MPI_Comm comm) {
   std::vector<int> bad(values.size());
-  for (std::size_t i = 0; i < values.size(); ++i) bad[i] = std::isnan(values[i]);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (std::isnan(values[i])) bad[i] = 1, values[i] = 0;
   reduce(bad, MPI_MAX, comm);
   reduce(values, op, comm);
   for (std::size_t i = 0; i < values.size(); ++i)

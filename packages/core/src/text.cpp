@@ -1,0 +1,101 @@
+#include "thixis/core/text.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <numeric>
+
+namespace thixis::core {
+
+namespace {
+
+std::string lower(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+/// Levenshtein's distance, one row of the table at a time.
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), 0);
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t changed = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({changed, row[j] + 1, row[j - 1] + 1});
+    }
+  }
+  return row[b.size()];
+}
+
+std::string trimmed(const std::string& text) {
+  constexpr const char* blanks = " \t\r\n";
+  const auto begin = text.find_first_not_of(blanks);
+  return begin == std::string::npos ? "" : text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
+}
+
+/// std::from_chars knows no leading plus sign.
+std::string number_part(const std::string& text) {
+  std::string number = trimmed(text);
+  if (number.size() > 1 && number[0] == '+' && number[1] != '-') number.erase(0, 1);
+  return number;
+}
+
+template <class T>
+std::optional<T> parsed(const std::string& text) {
+  const std::string number = number_part(text);
+  T value{};
+  const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), value);
+  if (error != std::errc() || end != number.data() + number.size()) return std::nullopt;
+  return value;
+}
+
+}  // namespace
+
+std::optional<std::string> nearest(const std::string& name, const std::vector<std::string>& candidates) {
+  std::optional<std::string> best;
+  std::size_t least = std::max<std::size_t>(2, name.size() / 3) + 1;
+  for (const auto& candidate : candidates) {
+    const std::size_t distance = edit_distance(lower(name), lower(candidate));
+    // If every letter has to change, the names have nothing in common.
+    if (distance < least && distance < std::max(name.size(), candidate.size())) least = distance, best = candidate;
+  }
+  return best;
+}
+
+std::string did_you_mean(const std::string& name, const std::vector<std::string>& candidates, const std::string& otherwise) {
+  if (const auto near = nearest(name, candidates)) return fmt::format("Did you mean '{}'?", *near);
+  return fmt::format("{} {}.", otherwise, join(candidates));
+}
+
+std::string join(const std::vector<std::string>& words, const std::string& separator) {
+  std::string all;
+  for (const auto& word : words) all += (all.empty() ? "" : separator) + word;
+  return all;
+}
+
+std::optional<double> to_double(const std::string& text) {
+  const auto value = parsed<double>(text);
+  return value && std::isfinite(*value) ? value : std::nullopt;
+}
+
+std::optional<long long> to_integer(const std::string& text) { return parsed<long long>(text); }
+
+std::string to_text(double value) {
+  std::string text = fmt::format("{}", value);
+  const auto exponent = text.find('e');
+  if (exponent == std::string::npos) return text;
+  // 1e-08 reads better as 1e-8.
+  auto digits = exponent + 1;
+  if (text[digits] == '+') text.erase(digits, 1);
+  if (text[digits] == '-') ++digits;
+  while (digits + 1 < text.size() && text[digits] == '0') text.erase(digits, 1);
+  return text;
+}
+
+}  // namespace thixis::core
