@@ -14,8 +14,9 @@ class Problem {
  public:
   virtual ~Problem() = default;
 
-  virtual algebra::MapPtr map() const = 0;     ///< of X and of the residual
-  virtual algebra::MapPtr points() const = 0;  ///< of the contact points l: K, G, a, b, c, s; ids independent of the number of ranks are not required
+  virtual algebra::MapPtr map() const = 0;  ///< of X and of the residual
+  virtual algebra::MapPtr points()
+      const = 0;  ///< of the contact points l: K, G, a, b, c, s; ids independent of the number of ranks are not required
 
   /// R <- E(X) - F in the equation rows, 0 in the rows of contact points.
   virtual void equations(const algebra::Vector& X, algebra::Vector& R) const = 0;
@@ -34,6 +35,11 @@ class Problem {
 
   /// |(F, 0)|: what residuals are compared with.
   virtual double reference_norm() const = 0;
+
+  /// |B| of the Newton system A X^k = B = A X^{k-1} - R in terms of X, with the A of the last `linearize` at X and R the residual there:
+  /// what linear residuals are compared with. Default: |(F, 0)|, which is |B| wherever E, K and G are linear and K, G homogeneous (both
+  /// C-functions are then homogeneous, too: a K + b G = C); |R| where (F, 0) = 0. Override it where that is far off.
+  virtual double rhs_norm(const algebra::Vector& X, const algebra::Vector& R) const;
 };
 
 }  // namespace thixis::complementarity

@@ -1,0 +1,42 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "thixis/algebra/fwd.hpp"
+
+namespace thixis::complementarity {
+
+/// What the contact conditions are judged by: recomputed from the solution, cell by cell, without the matrices and residuals of the
+/// solver. The vectors live on one map, one entry per contact point l.
+struct KktData {
+  Teuchos::RCP<const algebra::Vector> gap;  ///< g_l
+  /// λ_α,l from the equilibrium of each body α alone, e.g. -(f1, ψ_l) + μ1 (∇u1, ∇ψ_l) and (f2, ψ_l) - μ2 (∇u2, ∇ψ_l): the sign that makes
+  /// each of them >= 0.
+  std::vector<Teuchos::RCP<const algebra::Vector>> equilibrium;
+  Teuchos::RCP<const algebra::Vector> claimed;  ///< the multiplier in X, in the same units as λ_α
+  double unbalanced = 0;                        ///< worst |residual| of the equations without a contact point, in the units of λ_α
+  double between_nodes = 0;                     ///< worst violation max(-g, 0) between the points
+  double gap_scale = 1;                         ///< > 0: the size of a gap that matters, e.g. max |u|
+  double multiplier_scale = 1;                  ///< > 0: the size of a multiplier that matters, e.g. max |F_l|
+};
+
+/// How far data are from g >= 0, λ >= 0, g λ = 0, λ in equilibrium with every body: relative, >= 0, maxima over all ranks; infinite where
+/// data are not finite.
+struct Kkt {
+  double infeasible = 0;     ///< max_l max(-g_l, 0) / gap_scale
+  double negative = 0;       ///< max_l,α max(-λ_α,l, 0) / multiplier_scale, over the claimed multiplier, too
+  double complementary = 0;  ///< max_l,α min(|g_l| / gap_scale, |λ_α,l| / multiplier_scale), over the claimed multiplier, too
+  double between_nodes = 0;  ///< violation between the points / gap_scale; a discretization error for degree >= 2, not judged by `holds`
+  double equilibrium = 0;    ///< max_l,α |λ_α,l - claimed_l| / multiplier_scale, and unbalanced / multiplier_scale
+
+  double worst() const;  ///< of all but between_nodes
+  bool holds(double tolerance) const { return worst() <= tolerance; }
+  /// "The contact conditions hold up to 3.1e-11." or "... are violated: multiplier 2.0e-03 below zero, ...", naming what exceeds it.
+  std::string sentence(double tolerance) const;
+};
+
+/// Collective. The minimum and not the product g λ measures complementarity: two arguments of size √tolerance are no complementary pair.
+/// Throws core::Error if the vectors have different maps or a scale is not a positive number.
+Kkt verify(const KktData& data);
+
+}  // namespace thixis::complementarity

@@ -1,0 +1,78 @@
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "thixis/complementarity/active_set.hpp"
+#include "thixis/complementarity/parameters.hpp"
+#include "thixis/complementarity/problem.hpp"
+
+namespace thixis::complementarity {
+
+/// One Newton step, at the new iterate X^k.
+struct NewtonRecord {
+  int step = 0;                         ///< k = 1, 2, ...
+  int linear_iterations = 0;            ///< of this step
+  long long active = 0;                 ///< contact points
+  long long changed = 0;                ///< points whose state differs from the one at X^{k-1}
+  double residual = 0;                  ///< |(E(X) - F, C(X))|
+  double residual_equations = 0;        ///< |E(X) - F|
+  double residual_complementarity = 0;  ///< |C(X)|, C = Fischer–Burmeister in damped steps
+  double step_length = 1;               ///< below 1 only in damped steps
+  double seconds = 0;                   ///< wall clock of the step
+};
+
+/// One look into the linear solver.
+struct LinearRecord {
+  int step = 0;         ///< Newton step k that is being computed
+  int iteration = 0;    ///< i
+  double residual = 0;  ///< |B - A X^{k,i}|
+};
+
+/// Who wants to know; each function may be empty. Called on all ranks with equal values.
+struct NewtonObserver {
+  std::function<void(const NewtonRecord&)> step;
+  std::function<void(const LinearRecord&)> linear;
+  std::function<void(const std::string&)> message;  ///< a sentence for the log: fallbacks, failed linear solves
+};
+
+struct NewtonReport {
+  int steps = 0;  ///< linear systems solved and used
+  bool converged = false;
+  std::string why;                                              ///< one sentence: why it ended
+  int linear_iterations = 0;                                    ///< total
+  std::vector<double> residuals;                                ///< |(E(X^k) - F, C(X^k))|, k = 0 ... steps
+  double residual_equations = 0, residual_complementarity = 0;  ///< the parts of the last one
+  long long active = 0;                                         ///< contact points at the last iterate
+  ActiveSet active_set;                                         ///< at the last iterate
+  int fallbacks = 0;                                            ///< changes from full to damped steps
+};
+
+/// Semismooth Newton (NOX, line-search based): from X, solves A^{k-1} (X^k - X^{k-1}) = -R(X^{k-1}), R = (E(X) - F, C(K(X), s G(X))), and
+/// leaves the last iterate in X, converged or not.
+///
+/// **It has converged** as soon as
+/// - |R(X^k)| <= eps_lin |(F, 0)| + absolute tolerance, for k = 0, 1, ... (where (F, 0) = 0: eps_lin |R(X^0)|), or
+/// - Newton-min, full step: the contact set at X^k is the one that step k was computed with, the linear solver met its tolerance, and
+///   |R(X^k)| is no more (at most twice as much, for round-off) than it left behind. With linear E, K, G the last condition holds by
+///   itself: X^k solves the linear system of its own contact set. With nonlinear E it says that nothing is left to linearize.
+///
+/// **The linear solver** is stopped at |R_alg| <= eps_alg |B| (Problem::rhs_norm), but never asked for less than a tenth of the absolute
+/// tolerance. Rule `inexact` stops it earlier, asked every `check_every` iterations: at |R_alg|/|B| <= alpha |R(X^{k,i})|/|(F, 0)|. If it
+/// fails once but at least halves the linear residual, the step is taken and the next system is the second try; two failures in a row or
+/// a worse one end the run. The rule `adaptive` needs an error estimate and throws InputError here.
+///
+/// **Globalization.** Undamped steps use `c_function` and are never judged by |R|: it grows by orders of magnitude in a good Newton-min
+/// run. Damped steps use Fischer–Burmeister and Armijo backtracking on its merit function ½|R|². They last until |R| has fallen to a tenth
+/// (in each further fallback: to the square of the factor before), then the undamped steps go on.
+/// - `none`: undamped, but when Newton-min cycles, damped. A cycle is a contact set seen before, with another one in between, at the same
+///   |R| (up to 0.1 %), all linear systems since then solved to their tolerance: for linear E, K, G a proof that Newton-min does not end.
+/// - `line search`: damped steps first; Fischer–Burmeister stays damped to the end.
+/// - `hybrid`: as `none`; damped steps also, from the iterate where the undamped ones began, when |R| is not finite or has grown in ten
+///   successive steps.
+///
+/// max iterations = 0 evaluates nothing and returns not converged. NaN in the problem's answers ends the run, not converged.
+NewtonReport newton(Problem& problem, algebra::Vector& X, const NewtonParams& newton, const StoppingParams& stopping, int check_every,
+                    const NewtonObserver& observer = {});
+
+}  // namespace thixis::complementarity

@@ -1,0 +1,49 @@
+#pragma once
+#include <optional>
+
+#include "thixis/complementarity/active_set.hpp"
+#include "thixis/complementarity/c_function.hpp"
+#include "thixis/core/schema.hpp"
+
+namespace thixis::complementarity {
+
+enum class Start { cold, nested };
+enum class Globalization { none, line_search, hybrid };
+enum class Scaling { none, physical };
+
+/// Block `newton/initial`: the functions a cold start begins with; nothing given is zero inside. They are evaluated by the model.
+struct InitialParams {
+  std::optional<core::Formula> u1, u2, lambda;
+  static const core::Schema<InitialParams>& schema();
+};
+
+/// Block `newton`. What the globalizations do is written at `newton()` in newton.hpp; `start` and `initial` are read by the drivers.
+struct NewtonParams {
+  CFunction c_function = CFunction::min;
+  int max_iterations = 200;
+  Start start = Start::cold;
+  InitialParams initial;
+  Globalization globalization = Globalization::none;
+  Ties ties = Ties::contact;
+  double tie_tolerance = 0;
+  Scaling scaling = Scaling::physical;
+  static const core::Schema<NewtonParams>& schema();
+};
+
+enum class StoppingRule { exact, inexact, adaptive };
+
+/// Block `stopping`; what the rules mean is written at `newton()` in newton.hpp.
+struct StoppingParams {
+  StoppingRule rule = StoppingRule::exact;
+  double linear_tolerance = 1e-10;    ///< eps_alg
+  double nonlinear_tolerance = 1e-9;  ///< eps_lin
+  double absolute_tolerance = 0;      ///< of the nonlinear residual, in the units of the equations
+  double gamma_algebraic = 0.3;
+  double gamma_linearization = 0.3;
+  double inexact_factor = 0.3;   ///< alpha
+  std::optional<bool> estimate;  ///< not given: only where rule, target or adaptivity need it
+  std::optional<double> target;
+  static const core::Schema<StoppingParams>& schema();
+};
+
+}  // namespace thixis::complementarity

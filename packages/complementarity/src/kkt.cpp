@@ -1,0 +1,117 @@
+#include "thixis/complementarity/kkt.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "tpetra.hpp"
+
+namespace thixis::complementarity {
+namespace {
+
+/// What is not finite counts as infinitely wrong.
+KOKKOS_INLINE_FUNCTION double judged(double x) { return x - x == 0 ? x : std::numeric_limits<double>::infinity(); }
+
+/// Largest max(-v_l, 0) / scale
+struct BelowZero {
+  Read v;
+  double scale;
+  KOKKOS_FUNCTION void operator()(int l, double& worst) const {
+    const double violation = judged(v(l) <= 0 ? -v(l) / scale : 0 * v(l));
+    if (worst < violation) worst = violation;
+  }
+};
+
+/// Largest min(|g_l| / gap_scale, |λ_l| / multiplier_scale)
+struct NotComplementary {
+  Read gap, multiplier;
+  double gap_scale, multiplier_scale;
+  KOKKOS_FUNCTION void operator()(int l, double& worst) const {
+    const double g = judged(std::abs(gap(l)) / gap_scale), m = judged(std::abs(multiplier(l)) / multiplier_scale);
+    const double violation = g < m ? g : m;
+    if (worst < violation) worst = violation;
+  }
+};
+
+/// Largest |λ_l - claimed_l| / scale
+struct Disagreement {
+  Read multiplier, claimed;
+  double scale;
+  KOKKOS_FUNCTION void operator()(int l, double& worst) const {
+    const double violation = judged(std::abs(multiplier(l) - claimed(l)) / scale);
+    if (worst < violation) worst = violation;
+  }
+};
+
+template <class Kernel>
+double worst_of(const char* label, const algebra::Vector& points, const Kernel& kernel) {
+  double worst = 0;
+  Kokkos::parallel_reduce(label, Kokkos::RangePolicy<Execution>(0, static_cast<int>(points.getLocalLength())), kernel,
+                          Kokkos::Max<double>(worst));
+  return std::max(worst, 0.0);
+}
+
+void must_fit(const KktData& data) {
+  const auto fits = [&](const Teuchos::RCP<const algebra::Vector>& v) {
+    return !v.is_null() && !data.gap.is_null() && v->getLocalLength() == data.gap->getLocalLength();
+  };
+  bool here = fits(data.gap) && fits(data.claimed) && !data.equilibrium.empty();
+  for (const auto& multiplier : data.equilibrium) here = here && fits(multiplier);
+  if (data.gap.is_null() || !comm_of(*data.gap->getMap()).all(here))
+    throw core::Error(core::ExitCode::internal,
+                      "The contact conditions need a gap, the claimed multiplier and the multiplier of each body on one map.");
+  const auto positive = [](double scale) { return scale > 0 && std::isfinite(scale); };
+  if (!positive(data.gap_scale) || !positive(data.multiplier_scale))
+    throw core::Error(core::ExitCode::internal,
+                      fmt::format("The contact conditions need positive scales of gap and multiplier, not {} and {}.", data.gap_scale,
+                                  data.multiplier_scale));
+}
+
+}  // namespace
+
+Kkt verify(const KktData& data) {
+  must_fit(data);
+  const algebra::Vector& gap = *data.gap;
+  Kkt kkt;
+  kkt.infeasible = worst_of("thixis::complementarity::infeasible", gap, BelowZero{read(gap), data.gap_scale});
+  kkt.between_nodes = judged(std::max(data.between_nodes / data.gap_scale, 0.0) + 0 * data.between_nodes);
+  kkt.equilibrium = judged(std::abs(data.unbalanced) / data.multiplier_scale);
+
+  const auto judge = [&](const algebra::Vector& multiplier) {
+    kkt.negative =
+        std::max(kkt.negative, worst_of("thixis::complementarity::negative", gap, BelowZero{read(multiplier), data.multiplier_scale}));
+    kkt.complementary =
+        std::max(kkt.complementary, worst_of("thixis::complementarity::complementary", gap,
+                                             NotComplementary{read(gap), read(multiplier), data.gap_scale, data.multiplier_scale}));
+    kkt.equilibrium = std::max(kkt.equilibrium, worst_of("thixis::complementarity::equilibrium", gap,
+                                                         Disagreement{read(multiplier), read(*data.claimed), data.multiplier_scale}));
+  };
+  judge(*data.claimed);
+  for (const auto& multiplier : data.equilibrium) judge(*multiplier);
+
+  std::vector<double> global = {kkt.infeasible, kkt.negative, kkt.complementary, kkt.between_nodes, kkt.equilibrium};
+  comm_of(*gap.getMap()).max(global);
+  return {global[0], global[1], global[2], global[3], global[4]};
+}
+
+double Kkt::worst() const { return std::max({infeasible, negative, complementary, equilibrium}); }
+
+std::string Kkt::sentence(double tolerance) const {
+  const std::string between =
+      between_nodes > 0 ? fmt::format(" Between the points the gap goes down to {:.1e} below zero.", between_nodes) : std::string();
+  if (holds(tolerance)) return fmt::format("The contact conditions hold up to {:.1e}.", worst()) + between;
+  std::string wrong;
+  const auto name = [&](double violation, const char* what) {
+    if (violation <= tolerance) return;
+    wrong += fmt::format("{}{} {:.1e}", wrong.empty() ? "" : ", ", what, violation);
+  };
+  name(infeasible, "gap below zero by");
+  name(negative, "multiplier below zero by");
+  name(complementary, "gap and multiplier both open by");
+  name(equilibrium, "multiplier out of equilibrium by");
+  return fmt::format("The contact conditions are violated (more than {:.1e}, relative): {}.", tolerance, wrong) + between;
+}
+
+}  // namespace thixis::complementarity

@@ -1,0 +1,229 @@
+#include "thixis/complementarity/newton.hpp"
+
+#include <NOX_Solver_LineSearchBased.H>
+#include <NOX_StatusTest_Combo.H>
+#include <NOX_StatusTest_FiniteValue.H>
+#include <NOX_StatusTest_MaxIters.H>
+#include <fmt/format.h>
+
+#include <Teuchos_ParameterList.hpp>
+#include <Teuchos_oblackholestream.hpp>
+#include <chrono>
+#include <cmath>
+
+#include "nox_group.hpp"
+#include "nox_line_search.hpp"
+#include "nox_status.hpp"
+#include "system.hpp"
+
+namespace thixis::complementarity {
+namespace {
+
+enum class Steps { full, damped };
+
+/// Why a sequence of steps of one kind ended.
+enum class Ending { converged, cycle, growing, fallen, not_finite, too_many, failed };
+
+Teuchos::RCP<Teuchos::ParameterList> nox_parameters(Steps steps) {
+  const auto list = Teuchos::rcp(new Teuchos::ParameterList);
+  const Teuchos::RCP<std::ostream> nowhere = Teuchos::rcp(new Teuchos::oblackholestream);
+  list->set("Nonlinear Solver", "Line Search Based");
+  list->sublist("Printing").set("Output Information", 0);
+  list->sublist("Printing").set("Output Stream", nowhere);
+  list->sublist("Printing").set("Error Stream", nowhere);
+  list->sublist("Direction").set("Method", "Newton");
+  Teuchos::ParameterList& search = list->sublist("Line Search");
+  if (steps == Steps::full) {
+    search.set("Method", "Full Step");
+  } else {
+    const Teuchos::RCP<NOX::LineSearch::UserDefinedFactory> armijo = Teuchos::rcp(new Armijo::Factory);
+    search.set("Method", "User Defined");
+    search.set("User Defined Line Search Factory", armijo);
+  }
+  return list;
+}
+
+/// The status tests of one sequence of steps, asked in this order.
+struct Tests {
+  Teuchos::RCP<NOX::StatusTest::FiniteValue> finite = Teuchos::rcp(new NOX::StatusTest::FiniteValue);
+  Teuchos::RCP<SmallResidual> small;
+  Teuchos::RCP<SettledContactSet> settled;  ///< null where it does not apply, as the ones below
+  Teuchos::RCP<Cycle> cycle;
+  Teuchos::RCP<Growing> growing;
+  Teuchos::RCP<Fallen> fallen;
+  Teuchos::RCP<NOX::StatusTest::MaxIters> most;
+  Teuchos::RCP<NOX::StatusTest::Combo> all = Teuchos::rcp(new NOX::StatusTest::Combo(NOX::StatusTest::Combo::OR));
+
+  Tests(const System& system, Steps steps, const NewtonParams& params, double fall, int most_steps) {
+    const bool full_min = steps == Steps::full && params.c_function == CFunction::min;
+    const bool damped_to_the_end = params.c_function != CFunction::min && params.globalization == Globalization::line_search;
+    all->addStatusTest(finite);
+    add(small, new SmallResidual(system));
+    if (full_min) add(settled, new SettledContactSet(system));
+    if (full_min) add(cycle, new Cycle(system));
+    if (steps == Steps::full && params.globalization == Globalization::hybrid) add(growing, new Growing(10));
+    if (steps == Steps::damped && !damped_to_the_end) add(fallen, new Fallen(fall));
+    add(most, new NOX::StatusTest::MaxIters(most_steps));
+  }
+
+  Ending ending() const {
+    if (small->answered() || (!settled.is_null() && settled->answered())) return Ending::converged;
+    if (finite->getStatus() == NOX::StatusTest::Failed) return Ending::not_finite;
+    if (!cycle.is_null() && cycle->answered()) return Ending::cycle;
+    if (!growing.is_null() && growing->answered()) return Ending::growing;
+    if (!fallen.is_null() && fallen->answered()) return Ending::fallen;
+    return Ending::too_many;
+  }
+
+ private:
+  template <class T>
+  void add(Teuchos::RCP<T>& test, T* made) {
+    test = Teuchos::rcp(made);
+    all->addStatusTest(test);
+  }
+};
+
+/// A run of `newton`: sequences of full or damped steps, one after the other, from the X of the caller.
+class Run {
+ public:
+  Run(Problem& problem, algebra::Vector& X, const NewtonParams& params, const StoppingParams& stopping, int check_every,
+      const NewtonObserver& observer)
+      : params_(params), observer_(observer), system_(problem, params, stopping, check_every, observer), X_(X) {}
+
+  NewtonReport solve() {
+    Steps steps = params_.globalization == Globalization::line_search ? Steps::damped : Steps::full;
+    for (;;) {
+      const Ending ending = take(steps);
+      const bool goes_on = steps == Steps::full ? falls_back(ending) : ending == Ending::fallen;
+      if (!goes_on || report_.steps >= params_.max_iterations) return conclude(ending);
+      steps = steps == Steps::full ? Steps::damped : Steps::full;
+      announce(ending);
+    }
+  }
+
+ private:
+  /// Steps of one kind until a test stops them; the last iterate goes to X unless the damped steps begin before it.
+  Ending take(Steps steps) {
+    system_.use(steps == Steps::damped ? CFunction::fischer_burmeister : params_.c_function);
+    const auto group = Teuchos::rcp(new NoxGroup(system_, X_));
+    const Tests tests(system_, steps, params_, fall_, params_.max_iterations - report_.steps);
+    NOX::Solver::LineSearchBased solver(group, tests.all, nox_parameters(steps));
+    Ending ending = Ending::failed;
+    try {
+      while (step(solver) == NOX::StatusTest::Unconverged) {
+      }
+      ending = tests.ending();
+    } catch (const StepFailed& failure) {
+      why_ = failure.why;
+    }
+    period_ = tests.cycle.is_null() ? 0 : tests.cycle->period();
+    keep(solver, ending);
+    return ending;
+  }
+
+  NOX::StatusTest::StatusType step(NOX::Solver::LineSearchBased& solver) {
+    const int k = solver.getNumIterations(), iterations = system_.linear_iterations();
+    const auto start = std::chrono::steady_clock::now();
+    system_.begin_step(report_.steps + 1);
+    const NOX::StatusTest::StatusType status = solver.step();
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+
+    const State& now = dynamic_cast<const NoxGroup&>(solver.getSolutionGroup()).state();
+    if (solver.getNumIterations() == k) {
+      if (report_.residuals.empty()) report_.residuals.push_back(now.residual);
+      return status;
+    }
+    const State& before = dynamic_cast<const NoxGroup&>(solver.getPreviousSolutionGroup()).state();
+    if (report_.residuals.empty()) report_.residuals.push_back(before.residual);
+    report_.residuals.push_back(now.residual);
+    ++report_.steps;
+    if (observer_.step)
+      observer_.step({report_.steps, system_.linear_iterations() - iterations, now.active.count(), now.active.changed(before.active),
+                      now.residual, now.equations, now.complementarity, solver.getStepSize(), elapsed.count()});
+    return status;
+  }
+
+  void keep(const NOX::Solver::LineSearchBased& solver, Ending ending) {
+    const bool back = params_.globalization == Globalization::hybrid && (ending == Ending::growing || ending == Ending::not_finite);
+    const bool step_before = ending == Ending::not_finite && solver.getNumIterations() > 0;
+    const auto& group = dynamic_cast<const NoxGroup&>(step_before ? solver.getPreviousSolutionGroup() : solver.getSolutionGroup());
+    last_ = group.state();
+    steps_of_kind_ = solver.getNumIterations();
+    if (!back) Tpetra::deep_copy(X_, group.X());
+  }
+
+  bool falls_back(Ending ending) const {
+    if (ending == Ending::cycle) return true;
+    if (params_.globalization != Globalization::hybrid) return false;
+    return ending == Ending::growing || (ending == Ending::not_finite && steps_of_kind_ > 0);
+  }
+
+  void announce(Ending ending) {
+    if (ending == Ending::fallen) {
+      system_.say(fmt::format("The residual has fallen to {:.2e} after step {}: full steps again.", last_.residual, report_.steps));
+      fall_ *= fall_;
+      return;
+    }
+    ++report_.fallbacks;
+    const std::string why = ending == Ending::cycle     ? fmt::format("Newton-min cycles with period {}", period_)
+                            : ending == Ending::growing ? std::string("The residual has grown in ten successive steps")
+                                                        : std::string("The residual is not finite");
+    system_.say(fmt::format("{} (step {}): damped Fischer-Burmeister steps until the residual has fallen by a factor of {:.0e}.", why,
+                            report_.steps, fall_));
+  }
+
+  NewtonReport conclude(Ending ending) {
+    report_.converged = ending == Ending::converged;
+    report_.why = sentence(ending);
+    report_.linear_iterations = system_.linear_iterations();
+    report_.residual_equations = last_.equations;
+    report_.residual_complementarity = last_.complementarity;
+    report_.active = last_.active.count();
+    report_.active_set = last_.active;
+    return report_;
+  }
+
+  std::string sentence(Ending ending) const {
+    const double bound = system_.nonlinear_bound();
+    switch (ending) {
+      case Ending::converged:
+        if (last_.residual <= bound) return fmt::format("The residual {:.2e} is below {:.2e}.", last_.residual, bound);
+        return fmt::format("The contact set did not change in step {}: its linear system is solved, and with it the problem.",
+                           report_.steps);
+      case Ending::not_finite:
+        return fmt::format("Step {} gives a residual that is not a finite number; the iterate before it is kept.", report_.steps);
+      case Ending::failed:
+        return fmt::format("Step {} was not possible: {}.", report_.steps + 1, why_);
+      default:
+        return fmt::format("No convergence in {} steps (newton/max iterations): the residual is {:.2e}, not below {:.2e}.", report_.steps,
+                           last_.residual, bound);
+    }
+  }
+
+  const NewtonParams& params_;
+  const NewtonObserver& observer_;
+  System system_;
+  algebra::Vector& X_;
+  NewtonReport report_;
+  State last_;
+  std::string why_;
+  double fall_ = 0.1;
+  int period_ = 0;
+  int steps_of_kind_ = 0;
+};
+
+}  // namespace
+
+NewtonReport newton(Problem& problem, algebra::Vector& X, const NewtonParams& params, const StoppingParams& stopping, int check_every,
+                    const NewtonObserver& observer) {
+  if (stopping.rule == StoppingRule::adaptive)
+    throw core::InputError("stopping/rule = adaptive needs an error estimate inside the solver; write exact or inexact here.");
+  if (params.max_iterations == 0) {
+    NewtonReport report;
+    report.why = "Not solved: newton/max iterations is 0.";
+    return report;
+  }
+  return Run(problem, X, params, stopping, check_every, observer).solve();
+}
+
+}  // namespace thixis::complementarity

@@ -1,0 +1,42 @@
+#include "nox_status.hpp"
+
+#include <NOX_Solver_Generic.H>
+
+#include <cmath>
+
+namespace thixis::complementarity {
+
+NOX::StatusTest::StatusType Question::checkStatus(const NOX::Solver::Generic& solver, NOX::StatusTest::CheckType type) {
+  if (type == NOX::StatusTest::None) return status_ = NOX::StatusTest::Unevaluated;
+  const int k = solver.getNumIterations();
+  const State& now = dynamic_cast<const NoxGroup&>(solver.getSolutionGroup()).state();
+  const State& before = k == 0 ? now : dynamic_cast<const NoxGroup&>(solver.getPreviousSolutionGroup()).state();
+  return status_ = ask(now, before, k) ? yes_ : NOX::StatusTest::Unconverged;
+}
+
+bool SettledContactSet::ask(const State& now, const State& before, int k) {
+  return k > 0 && system_.solved() && now.residual <= 2 * system_.left() && now.active.changed(before.active) == 0;
+}
+
+bool Cycle::ask(const State& now, const State& before, int k) {
+  if (k > 0 && !system_.solved()) visits_.clear();
+  const auto [seen, first] = visits_.try_emplace(now.active.fingerprint(), Visit{k, now.residual});
+  if (first) return false;
+  const bool left = now.active.fingerprint() != before.active.fingerprint();
+  const bool same = std::abs(now.residual - seen->second.residual) <= 1e-3 * seen->second.residual;
+  period_ = k - seen->second.k;
+  seen->second = {k, now.residual};
+  return left && same;
+}
+
+bool Fallen::ask(const State& now, const State&, int k) {
+  if (k == 0) start_ = now.residual;
+  return k > 0 && now.residual <= factor_ * start_;
+}
+
+bool Growing::ask(const State& now, const State& before, int k) {
+  grown_ = k > 0 && now.residual > before.residual ? grown_ + 1 : 0;
+  return grown_ >= steps_;
+}
+
+}  // namespace thixis::complementarity

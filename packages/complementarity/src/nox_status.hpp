@@ -1,0 +1,87 @@
+#pragma once
+#include <NOX_StatusTest_Generic.H>
+
+#include <unordered_map>
+
+#include "nox_group.hpp"
+
+namespace thixis::complementarity {
+
+/// A status test that asks one question about the present iterate and the one before; the answer yes has the meaning `yes`.
+class Question : public NOX::StatusTest::Generic {
+ public:
+  explicit Question(NOX::StatusTest::StatusType yes) : yes_(yes) {}
+  NOX::StatusTest::StatusType checkStatus(const NOX::Solver::Generic& solver, NOX::StatusTest::CheckType type) override;
+  NOX::StatusTest::StatusType getStatus() const override { return status_; }
+  std::ostream& print(std::ostream& stream, int) const override { return stream; }
+  bool answered() const { return status_ == yes_; }
+
+ protected:
+  /// k counts the steps of this NOX solver; at k = 0 `before` is not to be read.
+  virtual bool ask(const State& now, const State& before, int k) = 0;
+
+ private:
+  NOX::StatusTest::StatusType yes_;
+  NOX::StatusTest::StatusType status_ = NOX::StatusTest::Unevaluated;
+};
+
+/// |R| <= bound
+class SmallResidual : public Question {
+ public:
+  explicit SmallResidual(const System& system) : Question(NOX::StatusTest::Converged), system_(system) {}
+
+ private:
+  bool ask(const State& now, const State&, int) override { return now.residual <= system_.nonlinear_bound(); }
+  const System& system_;
+};
+
+/// Newton-min, full step: the same contact set as before, and no residual but that of the linear solver.
+class SettledContactSet : public Question {
+ public:
+  explicit SettledContactSet(const System& system) : Question(NOX::StatusTest::Converged), system_(system) {}
+
+ private:
+  bool ask(const State& now, const State& before, int k) override;
+  const System& system_;
+};
+
+/// Newton-min, full steps: a contact set that was left comes back with the residual it had, see newton.hpp.
+class Cycle : public Question {
+ public:
+  explicit Cycle(const System& system) : Question(NOX::StatusTest::Failed), system_(system) {}
+  int period() const { return period_; }
+
+ private:
+  struct Visit {
+    int k;
+    double residual;
+  };
+  bool ask(const State& now, const State& before, int k) override;
+  const System& system_;
+  std::unordered_map<std::uint64_t, Visit> visits_;
+  int period_ = 0;
+};
+
+/// |R| <= factor |R at k = 0|: the damped steps have done their work.
+class Fallen : public Question {
+ public:
+  explicit Fallen(double factor) : Question(NOX::StatusTest::Converged), factor_(factor) {}
+
+ private:
+  bool ask(const State& now, const State& before, int k) override;
+  double factor_;
+  double start_ = 0;
+};
+
+/// |R| has grown in so many successive steps.
+class Growing : public Question {
+ public:
+  explicit Growing(int steps) : Question(NOX::StatusTest::Failed), steps_(steps) {}
+
+ private:
+  bool ask(const State& now, const State& before, int k) override;
+  int steps_;
+  int grown_ = 0;
+};
+
+}  // namespace thixis::complementarity

@@ -1,0 +1,61 @@
+#include "thixis/complementarity/parameters.hpp"
+
+namespace thixis::complementarity {
+
+const core::Schema<InitialParams>& InitialParams::schema() {
+  static const auto s = core::Schema<InitialParams>("initial", "Functions that a cold start begins with; what is not given is zero inside.")
+                            .parameter("u1", &InitialParams::u1, "Start of the upper membrane (of the only one, in obstacle problems).")
+                            .parameter("u2", &InitialParams::u2, "Start of the lower membrane.")
+                            .parameter("lambda", &InitialParams::lambda, "Start of the multiplier.");
+  return s;
+}
+
+const core::Schema<NewtonParams>& NewtonParams::schema() {
+  static const auto s =
+      core::Schema<NewtonParams>("newton", "How the nonlinear system is solved.")
+          .choice("c-function", &NewtonParams::c_function, {{"min", CFunction::min}, {"fischer-burmeister", CFunction::fischer_burmeister}},
+                  "Function of gap and multiplier whose zeros are the contact conditions.")
+          .parameter("max iterations", &NewtonParams::max_iterations, core::at_least(0),
+                     "Newton steps after which the run ends without convergence; 0 solves nothing and only counts unknowns.")
+          .choice("start", &NewtonParams::start, {{"cold", Start::cold}, {"nested", Start::nested}},
+                  "Begin with the functions of 'initial', or with the solution on the next coarser mesh.")
+          .block("initial", &NewtonParams::initial, InitialParams::schema())
+          .choice("globalization", &NewtonParams::globalization,
+                  {{"none", Globalization::none}, {"line search", Globalization::line_search}, {"hybrid", Globalization::hybrid}},
+                  "Full steps with a damped fallback at a cycle; damped steps from the start; full steps with the fallback also at growing "
+                  "residuals.")
+          .choice("ties", &NewtonParams::ties, {{"contact", Ties::contact}, {"free", Ties::free}},
+                  "What becomes of points where gap and scaled multiplier are equal.")
+          .parameter("tie tolerance", &NewtonParams::tie_tolerance, core::between(0, 1e-3),
+                     "Gap and scaled multiplier count as equal up to this part of the largest of them.")
+          .choice("scaling", &NewtonParams::scaling, {{"none", Scaling::none}, {"physical", Scaling::physical}},
+                  "Compare the gap with the multiplier itself, or with the multiplier scaled to a length.");
+  return s;
+}
+
+const core::Schema<StoppingParams>& StoppingParams::schema() {
+  using Params = StoppingParams;
+  static const auto s =
+      core::Schema<Params>("stopping", "When the linear and the nonlinear solver stop.")
+          .choice("rule", &Params::rule,
+                  {{"exact", StoppingRule::exact}, {"inexact", StoppingRule::inexact}, {"adaptive", StoppingRule::adaptive}},
+                  "Both solvers to their tolerances, the linear one in proportion to the nonlinear residual, or by the parts of the error "
+                  "estimate.")
+          .parameter("linear tolerance", &Params::linear_tolerance, core::strictly_between(0, 1),
+                     "Linear residual, relative to the right-hand side of the Newton system.")
+          .parameter("nonlinear tolerance", &Params::nonlinear_tolerance, core::strictly_between(0, 1),
+                     "Nonlinear residual, relative to the data of the problem.")
+          .parameter("absolute tolerance", &Params::absolute_tolerance, core::at_least(0),
+                     "Added to the bound of the nonlinear residual, in the units of the equations.")
+          .parameter("gamma algebraic", &Params::gamma_algebraic, core::strictly_between(0, 1),
+                     "Algebraic error, relative to the larger one of discretization and linearization error.")
+          .parameter("gamma linearization", &Params::gamma_linearization, core::strictly_between(0, 1),
+                     "Linearization error, relative to the discretization error.")
+          .parameter("inexact factor", &Params::inexact_factor, core::strictly_between(0, 1),
+                     "Relative linear residual, as a part of the relative nonlinear residual (rule inexact).")
+          .parameter("estimate", &Params::estimate, "Estimate the error; by default where rule, target or adaptivity need it.")
+          .parameter("target", &Params::target, core::above(0), "Bound on the energy error at which refinement stops.");
+  return s;
+}
+
+}  // namespace thixis::complementarity

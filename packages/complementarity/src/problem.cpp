@@ -1,0 +1,12 @@
+#include "thixis/complementarity/problem.hpp"
+
+#include "tpetra.hpp"
+
+namespace thixis::complementarity {
+
+double Problem::rhs_norm(const algebra::Vector&, const algebra::Vector& R) const {
+  const double reference = reference_norm();
+  return reference > 0 ? reference : R.norm2();
+}
+
+}  // namespace thixis::complementarity

@@ -1,0 +1,100 @@
+#include "system.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace thixis::complementarity {
+
+System::System(Problem& problem, const NewtonParams& newton, const StoppingParams& stopping, int check_every,
+               const NewtonObserver& observer)
+    : problem_(problem),
+      newton_(newton),
+      stopping_(stopping),
+      observer_(observer),
+      check_every_(check_every),
+      function_(newton.c_function),
+      K_(problem.points()),
+      G_(problem.points()),
+      s_(problem.points()),
+      C_(problem.points()),
+      a_(problem.points()),
+      b_(problem.points()),
+      reference_(problem.reference_norm()) {
+  s_.putScalar(1);
+  if (newton.scaling != Scaling::physical) return;
+  problem.scaling(s_);
+  bool positive = true;
+  for (const double s : s_.getData()) positive = positive && s > 0 && std::isfinite(s);
+  if (!comm_of(*s_.getMap()).all(positive))
+    throw core::Error(core::ExitCode::internal, "The scaling of the multiplier must be positive at every contact point.");
+}
+
+State System::residual(const algebra::Vector& X, algebra::Vector& R) {
+  State state;
+  problem_.equations(X, R);
+  state.equations = R.norm2();
+  problem_.arguments(X, K_, G_);
+  state.active = ActiveSet(K_, G_, s_, newton_.ties, newton_.tie_tolerance);
+  evaluate(function_, K_, G_, s_, state.active, C_);
+  state.complementarity = C_.norm2();
+  problem_.insert(C_, R);
+  state.residual = std::hypot(state.equations, state.complementarity);
+  if (!(reference_ > 0)) reference_ = state.residual;
+  return state;
+}
+
+void System::linearize(const algebra::Vector& X) {
+  problem_.arguments(X, K_, G_);
+  differentiate(function_, K_, G_, s_, ActiveSet(K_, G_, s_, newton_.ties, newton_.tie_tolerance), a_, b_);
+  problem_.linearize(X, a_, b_);
+}
+
+/// Never more than a tenth of the residual that the step starts from: a solver that has nothing to do would not move X.
+double System::linear_tolerance(double rhs, double residual) const {
+  const double wanted = std::max(stopping_.linear_tolerance * rhs, 0.1 * stopping_.absolute_tolerance);
+  return std::min(wanted, 0.1 * residual);
+}
+
+bool System::look(const algebra::Vector& X, const algebra::Vector& dX, int iteration, double residual, double rhs) {
+  if (observer_.linear) observer_.linear({step_, iteration, residual});
+  if (stopping_.rule != StoppingRule::inexact || iteration == 0) return false;
+  algebra::Vector Xi(X, Teuchos::Copy), Ri(X.getMap());
+  Xi.update(1, dX, 1);
+  return residual / rhs <= stopping_.inexact_factor * this->residual(Xi, Ri).residual / reference_;
+}
+
+void System::solve(const algebra::Vector& X, const algebra::Vector& R, algebra::Vector& dX) {
+  const double residual = R.norm2();
+  double rhs = problem_.rhs_norm(X, R);
+  if (!(rhs > 0)) rhs = residual;
+  algebra::LinearStop stop;
+  stop.tolerance = linear_tolerance(rhs, residual);
+  if (check_every_ > 0 && (stopping_.rule == StoppingRule::inexact || observer_.linear)) {
+    stop.check_every = check_every_;
+    stop.criterion = [&](const algebra::Vector& dXi, int iteration, double left) { return look(X, dXi, iteration, left, rhs); };
+  }
+  const algebra::LinearReport report = problem_.solve(R, dX, stop);
+  linear_iterations_ += report.iterations;
+  solved_ = report.converged && !report.by_criterion;
+  left_ = std::max(stop.tolerance, report.residual);
+  judge(report, residual, dX.norm2());
+}
+
+void System::judge(const algebra::LinearReport& report, double residual, double correction) {
+  if (!std::isfinite(correction) || !std::isfinite(report.residual))
+    throw StepFailed{"the linear solver returned numbers that are not finite"};
+  if (report.converged) {
+    failures_ = 0;
+    return;
+  }
+  ++failures_;
+  const std::string what =
+      fmt::format("the linear solver left a residual of {:.2e}{}{}", report.residual, report.reason.empty() ? "" : ": ", report.reason);
+  if (failures_ > 1) throw StepFailed{what + ", for the second time"};
+  if (report.residual > 0.5 * residual) throw StepFailed{what};
+  say(fmt::format("Newton step {}: {}; the step is taken and the next system is the second try.", step_, what));
+}
+
+}  // namespace thixis::complementarity

@@ -1,0 +1,68 @@
+#pragma once
+#include <string>
+
+#include "thixis/complementarity/newton.hpp"
+#include "tpetra.hpp"
+
+namespace thixis::complementarity {
+
+/// What is known about an iterate.
+struct State {
+  ActiveSet active;
+  double residual = 0;         ///< |(E(X) - F, C(X))|
+  double equations = 0;        ///< |E(X) - F|
+  double complementarity = 0;  ///< |C(X)|
+};
+
+/// No next iterate: the linear solver or the line search failed. `why` is the rest of a sentence about the step.
+struct StepFailed {
+  std::string why;
+};
+
+/// R(X) = (E(X) - F, C(K(X), s G(X))) with its generalized derivative and the rules of `stopping` for linear systems: what the NOX group
+/// asks for. The C-function may be changed between steps.
+class System {
+ public:
+  System(Problem& problem, const NewtonParams& newton, const StoppingParams& stopping, int check_every, const NewtonObserver& observer);
+
+  void use(CFunction function) { function_ = function; }
+  CFunction function() const { return function_; }
+  /// The Newton step that linear systems belong to, for the observer.
+  void begin_step(int step) { step_ = step; }
+
+  /// Overwrites R.
+  State residual(const algebra::Vector& X, algebra::Vector& R);
+  /// A(X), kept inside the problem.
+  void linearize(const algebra::Vector& X);
+  /// A(X) dX = -R with the A of the last `linearize`; throws StepFailed on all ranks.
+  void solve(const algebra::Vector& X, const algebra::Vector& R, algebra::Vector& dX);
+
+  double nonlinear_bound() const { return stopping_.nonlinear_tolerance * reference_ + stopping_.absolute_tolerance; }
+  int linear_iterations() const { return linear_iterations_; }  ///< of all systems
+  bool solved() const { return solved_; }                       ///< the last system, to its tolerance
+  double left() const { return left_; }                         ///< bound on the residual of the last system
+  void say(const std::string& sentence) const {
+    if (observer_.message) observer_.message(sentence);
+  }
+
+ private:
+  double linear_tolerance(double rhs, double residual) const;
+  bool look(const algebra::Vector& X, const algebra::Vector& dX, int iteration, double residual, double rhs);
+  void judge(const algebra::LinearReport& report, double residual, double correction);
+
+  Problem& problem_;
+  const NewtonParams& newton_;
+  const StoppingParams& stopping_;
+  const NewtonObserver& observer_;
+  int check_every_;
+  CFunction function_;
+  algebra::Vector K_, G_, s_, C_, a_, b_;
+  double reference_;
+  int step_ = 0;
+  int linear_iterations_ = 0;
+  int failures_ = 0;  ///< linear systems in a row that were not solved
+  bool solved_ = false;
+  double left_ = 0;
+};
+
+}  // namespace thixis::complementarity
