@@ -1,0 +1,96 @@
+#pragma once
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "thixis/core/schema.hpp"
+#include "thixis/scene/field.hpp"
+
+namespace thixis::scene {
+
+// -- block `scene` of the deck ------------------------------------------------------------------------------------------------------
+
+enum class Model { membranes, obstacle, parabolic_membranes, signorini, two_phase };
+
+enum class BoundaryKind {
+  dirichlet,  ///< u_alpha = g_alpha
+  neumann     ///< mu_alpha du_alpha/dn = t_alpha, n outward
+};
+
+/// Sublist `data`: the functions of a membrane problem. Each is a number or an expression of x, y, t, r, pi and the constants.
+struct DataParams {
+  core::Formula mu1{"1"}, mu2{"1"};      ///< tensions, positive
+  core::Formula f1{"0"}, f2{"0"};        ///< forces
+  core::Formula g1, g2;                  ///< Dirichlet data; not given: the trace of u1, u2
+  core::Formula u1, u2, lambda;          ///< the exact solution, if known
+  core::Formula u1_x, u1_y, u2_x, u2_y;  ///< its gradient; not given: differences
+  std::vector<double> centre = {0, 0};   ///< r is the distance to it
+  std::map<std::string, double> constants;
+  static const core::Schema<DataParams>& schema();
+};
+
+/// One sublist of `boundary`, for the boundary part whose tag is its name.
+struct BoundaryParams {
+  BoundaryKind kind = BoundaryKind::dirichlet;
+  core::Formula g1, g2;  ///< dirichlet; not given: data/g1, data/g2
+  core::Formula t1, t2;  ///< neumann; not given: 0
+  static const core::Schema<BoundaryParams>& schema();
+};
+
+/// Block `scene`. Its check wants either a case or data and reports expressions that can not be read.
+struct SceneParams {
+  Model model = Model::membranes;
+  std::string case_name;  ///< `case` in the deck; one of cases(), or empty
+  std::optional<DataParams> data;
+  core::Formula interface;  ///< level set; its zero set are the curves across which data jump
+  std::map<std::string, BoundaryParams> boundary;
+  static const core::Schema<SceneParams>& schema();
+};
+
+// -- the continuous problem ---------------------------------------------------------------------------------------------------------
+
+/// Condition on one part of the boundary, for u_1 and u_2.
+struct BoundaryCondition {
+  BoundaryKind kind = BoundaryKind::dirichlet;
+  FieldPtr value[2];  ///< g_alpha or t_alpha; both null: none was given
+};
+
+/// The exact solution. Across the interface only the second derivatives and lambda may jump.
+struct ExactMembranes {
+  FieldPtr u[2];
+  std::array<FieldPtr, 2> gradient[2];  ///< gradient[alpha][direction]
+  FieldPtr multiplier;                  ///< lambda; may be null
+};
+
+/// Two membranes in contact (docs/methods/membranes.md): find u_1, u_2, lambda with
+///
+///     -mu_1 Lap u_1 - lambda = f_1,   -mu_2 Lap u_2 + lambda = f_2,   u_1 - u_2 >= 0,  lambda >= 0,  (u_1 - u_2) lambda = 0.
+///
+/// Index 0 is the upper membrane u_1, index 1 the lower one u_2.
+struct MembraneScene {
+  std::string name;      ///< of the case, or "data"
+  std::string sentence;  ///< what it shows
+  FieldPtr tension[2];   ///< mu_alpha; a varying one may be <= 0 somewhere: to be checked where it is evaluated
+  FieldPtr force[2];     ///< f_alpha
+  std::map<std::string, BoundaryCondition> boundary;  ///< by tag
+  BoundaryCondition default_boundary;                 ///< of the tags that `boundary` does not name; its values may be null
+  std::optional<ExactMembranes> exact;
+  FieldPtr interface_level_set;  ///< zero on the curves across which data jump; may be null
+  FieldPtr initial[3];           ///< u_1, u_2, lambda from which a cold start begins; null: zero
+};
+
+/// A catalogued case (block `scene`, parameter `case`).
+struct Case {
+  std::string name;
+  Model model;
+  std::string sentence;
+};
+const std::vector<Case>& cases();
+
+/// The problem that the block describes. Throws InputError with one line "scene/<path>: <sentence>" per mistake (those of the schema's
+/// check), and for models that are no stationary membranes.
+MembraneScene membrane_scene(const SceneParams& params);
+
+}  // namespace thixis::scene

@@ -1,0 +1,199 @@
+#include "thixis/core/deck.hpp"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "sample.hpp"
+#include "thixis/core/error.hpp"
+#include "thixis/scene/membranes.hpp"
+
+namespace thixis::scene {
+namespace {
+
+std::string message_of(const std::function<void()>& f) {
+  try {
+    f();
+  } catch (const core::InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+SceneParams smooth_contact_data() {
+  SceneParams params;
+  params.data.emplace();
+  DataParams& data = *params.data;
+  data.centre = {0.5, 0.5};
+  data.constants = {{"R", 1.0 / 3}, {"N", 6}};
+  data.u1.text = "r < R ? 0 : (r^2 - R^2)^N";
+  data.u2.text = "r < R ? 0 : -(r^2 - R^2)^N";
+  data.lambda.text = "r < R ? 1000*r^3*(R^2 - r^2)^3 : 0";
+  data.f1.text = "r < R ? -1000*r^3*(R^2 - r^2)^3 : -4*N*(r^2 - R^2)^(N-2)*(N*r^2 - R^2)";
+  data.f2.text = "r < R ? 1000*r^3*(R^2 - r^2)^3 : 4*N*(r^2 - R^2)^(N-2)*(N*r^2 - R^2)";
+  params.interface.text = "r - R";
+  return params;
+}
+
+SceneParams by_height(const std::string& g1, const std::string& g2) {
+  SceneParams params;
+  params.data.emplace();
+  params.data->g1.text = g1;
+  params.data->g2.text = g2;
+  return params;
+}
+
+TEST(MembraneScene, from_expressions_equals_the_catalogued_one) {
+  SceneParams params;
+  params.case_name = "smooth contact";
+  const MembraneScene catalogued = membrane_scene(params), given = membrane_scene(smooth_contact_data());
+  const Sample sample = ring(0.5, 0.5, 0, 0.7, 2000);
+  const auto expect_equal = [&](const FieldPtr& a, const FieldPtr& b, double tolerance) {
+    const auto left = sample(a), right = sample(b);
+    for (std::size_t i = 0; i < left.size(); ++i) EXPECT_NEAR(left[i], right[i], tolerance);
+  };
+  expect_equal(given.interface_level_set, catalogued.interface_level_set, 1e-15);
+  expect_equal(given.exact->multiplier, catalogued.exact->multiplier, 1e-14);
+  for (const int alpha : {0, 1}) {
+    expect_equal(given.force[alpha], catalogued.force[alpha], 1e-14);
+    expect_equal(given.exact->u[alpha], catalogued.exact->u[alpha], 1e-15);
+    expect_equal(given.default_boundary.value[alpha], catalogued.default_boundary.value[alpha], 1e-15);
+    for (const int direction : {0, 1})
+      expect_equal(given.exact->gradient[alpha][direction], catalogued.exact->gradient[alpha][direction], 1e-10);
+  }
+}
+
+TEST(MembraneScene, takes_the_interface_of_the_deck_with_the_constants_of_the_case) {
+  SceneParams params;
+  params.case_name = "disk";
+  params.interface.text = "2*(r - R)";
+  Sample sample;
+  sample.add(0, 1);
+  EXPECT_NEAR(sample(membrane_scene(params).interface_level_set)[0], 2 * (1 - std::sqrt(0.5)), 1e-15);
+}
+
+TEST(MembraneScene, has_defaults_for_what_the_deck_leaves_out) {
+  const MembraneScene scene = membrane_scene(by_height("1", "x - 1"));
+  EXPECT_EQ(*scene.tension[0]->constant(), 1);
+  EXPECT_EQ(*scene.force[1]->constant(), 0);
+  EXPECT_EQ(*scene.default_boundary.value[0]->constant(), 1);
+  EXPECT_FALSE(scene.exact);
+  EXPECT_EQ(scene.interface_level_set, nullptr);
+}
+
+TEST(MembraneScene, has_conditions_by_boundary_tag) {
+  SceneParams params = by_height("1", "0");
+  params.boundary["wall"].g1.text = "2";
+  params.boundary["free"].kind = BoundaryKind::neumann;
+  params.boundary["free"].t2.text = "-3";
+  const MembraneScene scene = membrane_scene(params);
+  EXPECT_EQ(*scene.boundary.at("wall").value[0]->constant(), 2);
+  EXPECT_EQ(*scene.boundary.at("wall").value[1]->constant(), 0);
+  EXPECT_EQ(scene.boundary.at("free").kind, BoundaryKind::neumann);
+  EXPECT_EQ(*scene.boundary.at("free").value[0]->constant(), 0);
+  EXPECT_EQ(*scene.boundary.at("free").value[1]->constant(), -3);
+}
+
+TEST(MembraneScene, leaves_the_other_parts_without_condition_if_only_tagged_ones_are_given) {
+  SceneParams params = by_height("", "");
+  params.boundary["wall"].g1.text = "2";
+  params.boundary["wall"].g2.text = "1";
+  const MembraneScene scene = membrane_scene(params);
+  EXPECT_EQ(*scene.boundary.at("wall").value[1]->constant(), 1);
+  EXPECT_EQ(scene.default_boundary.value[0], nullptr);
+}
+
+TEST(MembraneScene, wants_either_a_case_or_data) {
+  SceneParams params;
+  EXPECT_EQ(message_of([&] { membrane_scene(params); }),
+            "scene: nothing says which problem to solve; give a catalogued 'case' or a sublist 'data'.");
+  params = by_height("1", "0");
+  params.case_name = "disk";
+  EXPECT_EQ(message_of([&] { membrane_scene(params); }), "scene/data: there is a case as well; give either 'case' or 'data'.");
+}
+
+TEST(MembraneScene, refuses_what_can_not_be_meant) {
+  SceneParams params = by_height("1", "");
+  EXPECT_EQ(message_of([&] { membrane_scene(params); }),
+            "scene/data: nothing says what u2 is on the boundary; give data/g2 or the exact solution data/u2.");
+  params = by_height("1", "0");
+  params.data->mu2.text = "-1";
+  EXPECT_EQ(message_of([&] { membrane_scene(params); }), "scene/data/mu2: a tension must be positive, not -1.");
+  params = by_height("1", "0");
+  params.data->u1.text = "x";
+  EXPECT_EQ(message_of([&] { membrane_scene(params); }), "scene/data/u1: the exact solution needs u2 as well; give both or none.");
+  params = by_height("1", "0");
+  params.boundary["free"].kind = BoundaryKind::neumann;
+  params.boundary["free"].g1.text = "1";
+  EXPECT_EQ(message_of([&] { membrane_scene(params); }),
+            "scene/boundary/free/g1: a part of kind neumann has no g1; give t1, or kind = dirichlet.");
+  params = by_height("1", "0");
+  params.data->constants["r"] = 1;
+  EXPECT_NE(message_of([&] { membrane_scene(params); }).find("scene/data/constants/r: this name has a meaning in every expression already"),
+            std::string::npos);
+  params = by_height("1", "0");
+  params.model = Model::signorini;
+  EXPECT_NE(message_of([&] { membrane_scene(params); }).find("scene/model: "), std::string::npos);
+}
+
+TEST(MembraneScene, reports_all_unreadable_expressions_at_once) {
+  SceneParams params = by_height("1", "0");
+  params.data->f1.text = "sin(";
+  params.data->f2.text = "1 + z";
+  const std::string message = message_of([&] { membrane_scene(params); });
+  EXPECT_EQ(message.find("scene/data/f1: "), 0u) << message;
+  EXPECT_NE(message.find("\nscene/data/f2: "), std::string::npos) << message;
+}
+
+struct Root {
+  SceneParams scene;
+};
+SceneParams parse(const std::string& inside) {
+  const auto schema = core::Schema<Root>("thixis", "A deck.").block("scene", &Root::scene, SceneParams::schema());
+  return core::Deck::from_text(
+             "<ParameterList name=\"thixis\">\n<ParameterList name=\"scene\">\n" + inside + "</ParameterList>\n</ParameterList>", "d.xml")
+      .parse(schema)
+      .scene;
+}
+const std::string model = "<Parameter name=\"model\" type=\"string\" value=\"membranes\"/>\n";
+
+TEST(SceneDeck, names_a_case_or_brings_data) {
+  EXPECT_EQ(parse(model + "<Parameter name=\"case\" type=\"string\" value=\"disk b\"/>\n").case_name, "disk b");
+  const SceneParams params =
+      parse(model +
+            "<ParameterList name=\"data\">\n<Parameter name=\"mu1\" type=\"double\" value=\"2\"/>\n"
+            "<Parameter name=\"g1\" type=\"string\" value=\"c*x\"/>\n<Parameter name=\"g2\" type=\"double\" value=\"-1\"/>\n"
+            "<ParameterList name=\"constants\">\n<Parameter name=\"c\" type=\"double\" value=\"3\"/>\n</ParameterList>\n"
+            "</ParameterList>\n<ParameterList name=\"boundary\">\n<ParameterList name=\"left\">\n"
+            "<Parameter name=\"kind\" type=\"string\" value=\"neumann\"/>\n</ParameterList>\n</ParameterList>\n");
+  const MembraneScene scene = membrane_scene(params);
+  Sample sample;
+  sample.add(2, 0);
+  EXPECT_EQ(sample(scene.default_boundary.value[0])[0], 6);
+  EXPECT_EQ(*scene.tension[0]->constant(), 2);
+  EXPECT_EQ(scene.boundary.at("left").kind, BoundaryKind::neumann);
+}
+
+TEST(SceneDeck, says_file_and_line_of_an_expression_that_can_not_be_read) {
+  const std::string message = message_of([] {
+    parse(model +
+          "<ParameterList name=\"data\">\n<Parameter name=\"g1\" type=\"double\" value=\"0\"/>\n<Parameter name=\"g2\" type=\"double\" "
+          "value=\"0\"/>\n"
+          "<Parameter name=\"f1\" type=\"string\" value=\"sin(\"/>\n</ParameterList>\n");
+  });
+  EXPECT_EQ(message.find("d.xml:7: scene/data/f1: "), 0u) << message;
+}
+
+TEST(SceneDeck, offers_the_nearest_case) {
+  const std::string message = message_of([] { parse(model + "<Parameter name=\"case\" type=\"string\" value=\"disc b\"/>\n"); });
+  EXPECT_NE(message.find("disk b"), std::string::npos) << message;
+  EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+}
+
+TEST(SceneDeck, must_say_which_problem_to_solve) {
+  EXPECT_EQ(message_of([] { parse(model); }),
+            "d.xml:2: scene: nothing says which problem to solve; give a catalogued 'case' or a sublist 'data'.");
+}
+
+}  // namespace
+}  // namespace thixis::scene
