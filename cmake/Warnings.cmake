@@ -1,6 +1,6 @@
 # thixis_warnings: how every target of the project is compiled.
 add_library(thixis_warnings INTERFACE)
-target_compile_options(thixis_warnings INTERFACE -Wall -Wextra -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual
+target_compile_options(thixis_warnings INTERFACE -Wall -Wextra -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wno-missing-field-initializers
   $<$<BOOL:${THIXIS_WARNINGS_AS_ERRORS}>:-Werror>
   $<$<BOOL:${THIXIS_SANITIZE}>:-fsanitize=address,undefined -fno-omit-frame-pointer>)
 target_link_options(thixis_warnings INTERFACE $<$<BOOL:${THIXIS_SANITIZE}>:-fsanitize=address,undefined>)

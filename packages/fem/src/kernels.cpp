@@ -1,23 +1,13 @@
 #include "kernels.hpp"
 
+#include "thixis/mesh/geometry.hpp"
+
 namespace thixis::fem {
 namespace {
 
-/// The triangle K by its edge vectors: edge i is opposite vertex i, so that grad(psi_i) = rotate(edge_i) / (2|K|).
-struct Triangle {
-  double edge[3][2];
-  double area;
+using mesh::CellGeometry;
 
-  KOKKOS_INLINE_FUNCTION Triangle(const mesh::View<double* [2]>& x, const mesh::View<LocalIndex* [3]>& vertices, LocalIndex K) {
-    for (int i = 0; i < 3; ++i)
-      for (int d = 0; d < 2; ++d) edge[i][d] = x(vertices(K, (i + 2) % 3), d) - x(vertices(K, (i + 1) % 3), d);
-    area = 0.5 * (edge[0][0] * edge[1][1] - edge[0][1] * edge[1][0]);
-  }
-  /// |K| grad(psi_i)·grad(psi_j)
-  KOKKOS_INLINE_FUNCTION double product(int i, int j) const {
-    return (edge[i][0] * edge[j][0] + edge[i][1] * edge[j][1]) / (4 * area);
-  }
-};
+KOKKOS_INLINE_FUNCTION double dot(const double* a, const double* b) { return a[0] * b[0] + a[1] * b[1]; }
 
 struct Stiffness {
   mesh::View<double* [2]> x;
@@ -28,9 +18,9 @@ struct Stiffness {
   Block3 A;  ///< out, overwritten
 
   KOKKOS_FUNCTION void operator()(int e) const {
-    const Triangle K(x, vertices, cells(first + e));
+    const CellGeometry K = mesh::cell_geometry(x, vertices, cells(first + e));
     for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) A(e, i, j) = mu(e) * K.product(i, j);
+      for (int j = 0; j < 3; ++j) A(e, i, j) = mu(e) * K.area * dot(K.gradient[i], K.gradient[j]);
   }
 };
 
@@ -46,13 +36,12 @@ struct Forces {
 
   KOKKOS_FUNCTION void operator()(int e) const {
     const LocalIndex cell = cells(first + e);
-    const Triangle K(x, vertices, cell);
-    double gradient[2] = {0, 0};  // of u_h, turned by 90 degrees and times 2|K|
+    const CellGeometry K = mesh::cell_geometry(x, vertices, cell);
+    double gradient[2] = {0, 0};
     for (int j = 0; j < 3; ++j)
-      for (int d = 0; d < 2; ++d) gradient[d] += u(vertices(cell, j)) * K.edge[j][d];
-    const double factor = mu(e) / (4 * K.area);
-    for (int i = 0; i < 3; ++i) y(e, i) = factor * (gradient[0] * K.edge[i][0] + gradient[1] * K.edge[i][1]);
-    energy(e) = factor * (gradient[0] * gradient[0] + gradient[1] * gradient[1]);
+      for (int d = 0; d < 2; ++d) gradient[d] += u(vertices(cell, j)) * K.gradient[j][d];
+    for (int i = 0; i < 3; ++i) y(e, i) = mu(e) * K.area * dot(gradient, K.gradient[i]);
+    energy(e) = mu(e) * K.area * dot(gradient, gradient);
   }
 };
 
@@ -64,8 +53,8 @@ struct MeanValues {
   Block2 d;  ///< out, overwritten
 
   KOKKOS_FUNCTION void operator()(int e) const {
-    const Triangle K(x, vertices, cells(first + e));
-    for (int i = 0; i < 3; ++i) d(e, i) = K.area / 3;
+    const double area = mesh::cell_area(x, vertices, cells(first + e));
+    for (int i = 0; i < 3; ++i) d(e, i) = area / 3;
   }
 };
 

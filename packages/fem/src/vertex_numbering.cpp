@@ -52,15 +52,15 @@ VertexNumbering number_vertices(const mesh::Mesh& mesh, const std::vector<bool>&
   std::vector<GlobalIndex> ids;
   ids.reserve(numbering.owned_vertices.size() + ghosts.size());
   for (const LocalIndex v : numbering.owned_vertices) ids.push_back(mesh.vertex_id[v]);
-  numbering.vertex_map = algebra::make_map(ids, mesh.comm);
+  numbering.vertex_map = algebra::map_of(ids, mesh.comm);
   for (const LocalIndex v : ghosts) ids.push_back(mesh.vertex_id[v]);
-  const auto all_vertices = algebra::make_map(ids, mesh.comm);
+  const auto all_vertices = algebra::map_of(ids, mesh.comm);
 
   // owned unknowns
   numbering.dirichlet_tag = local_dirichlet_tags(mesh, dirichlet);
   LocalIndex unknowns = 0;
   for (const LocalIndex v : numbering.owned_vertices) unknowns += numbering.dirichlet_tag[v] < 0;
-  numbering.rows = algebra::make_map(unknowns, mesh.comm);
+  numbering.rows = algebra::contiguous_map(unknowns, mesh.comm);
 
   // one number per vertex tells the ghosts: the id of the unknown, or -1 - tag
   algebra::Vector code(numbering.vertex_map), ghost_code(all_vertices);
@@ -91,7 +91,7 @@ VertexNumbering number_vertices(const mesh::Mesh& mesh, const std::vector<bool>&
       columns.push_back(static_cast<GlobalIndex>(values(k, 0)));
     }
   }
-  numbering.columns = algebra::make_map(columns, mesh.comm);
+  numbering.columns = algebra::map_of(columns, mesh.comm);
   Kokkos::deep_copy(numbering.column_of_vertex, column_of_vertex);
 
   numbering.cell_columns = mesh::View<LocalIndex* [3]>("thixis::fem::cell_columns", numbering.patch_cells.size());

@@ -56,6 +56,13 @@ inline MapPtr map_of(const std::vector<GlobalIndex>& ids, const core::Comm& comm
   return Teuchos::rcp(new Map(unknown, Teuchos::ArrayView<const GlobalIndex>(ids.data(), ids.size()), 0, teuchos_comm(comm)));
 }
 
+/// The map of `fields` unknowns per id of another map: id g becomes fields·g, ..., fields·g + fields - 1. Not collective for column maps.
+MapPtr interlaced(const MapPtr& map, int fields);
+
+/// Collective. The graph with these rows and columns, given in local column indices, sorted in each row.
+GraphPtr make_graph(const MapPtr& rows, const MapPtr& columns, const Graph::local_graph_device_type::row_map_type::non_const_type& row_map,
+                    const Graph::local_graph_device_type::entries_type::non_const_type& entries);
+
 // --- The local part of a vector as a one-dimensional View on the host ------------------------------------------------------------
 // A view must be gone before the vector is used in another way.
 
