@@ -120,7 +120,8 @@ Mesh make_mesh(const Triangulation& triangulation, const core::Comm& comm) {
   if (triangulation.cells.size() > static_cast<std::size_t>(std::numeric_limits<LocalIndex>::max() / 12))
     throw core::InputError(triangulation.name + ": the coarsest mesh is held by every rank; give a coarser one and more refinements.");
   const std::vector<Side> sides = sorted_sides(triangulation);
-  Mesh mesh{comm};
+  Mesh mesh;
+  mesh.comm = comm;
   mesh.global_cells = mesh.cells = static_cast<LocalIndex>(triangulation.cells.size());
   mesh.global_vertices = mesh.vertices = static_cast<LocalIndex>(triangulation.points.size());
   mesh.global_faces = mesh.faces = count_faces(sides, triangulation);
