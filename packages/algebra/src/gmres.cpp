@@ -1,6 +1,9 @@
 #include "gmres.hpp"
 
+// clang-format off: the first header is missing in the second
 #include <BelosBlockGmresIter.hpp>
+#include <Teuchos_SerialDenseMatrix.hpp>
+// clang-format on
 #include <BelosICGSOrthoManager.hpp>
 #include <BelosLinearProblem.hpp>
 #include <BelosOutputManager.hpp>
