@@ -1,8 +1,9 @@
 #include "gmres.hpp"
 
-// clang-format off: the first header is missing in the second
-#include <BelosBlockGmresIter.hpp>
+// The first header is missing in the second.
+// clang-format off
 #include <Teuchos_SerialDenseMatrix.hpp>
+#include <BelosBlockGmresIter.hpp>
 // clang-format on
 #include <BelosICGSOrthoManager.hpp>
 #include <BelosLinearProblem.hpp>
