@@ -1,6 +1,10 @@
 #include "gmres.hpp"
 
+// The first header is missing in the second.
+// clang-format off
+#include <Teuchos_SerialDenseMatrix.hpp>
 #include <BelosBlockGmresIter.hpp>
+// clang-format on
 #include <BelosICGSOrthoManager.hpp>
 #include <BelosLinearProblem.hpp>
 #include <BelosOutputManager.hpp>

@@ -42,7 +42,7 @@ inline Teuchos::RCP<const Teuchos::Comm<int>> teuchos_comm(const core::Comm& com
 /// The ranks among which a map, vector or matrix is distributed (itself alone for a serial communicator).
 inline core::Comm comm_of(const Map& map) {
   const auto* mpi = dynamic_cast<const Teuchos::MpiComm<int>*>(map.getComm().get());
-  return core::Comm(mpi ? *mpi->getRawMpiComm() : MPI_COMM_SELF);
+  return core::Comm(mpi ? (*mpi->getRawMpiComm())() : MPI_COMM_SELF);
 }
 
 /// Collective. The map that gives `count` ids to this rank: 0, 1, 2, ... in the order of the ranks. A count may be 0, on all ranks, too.
