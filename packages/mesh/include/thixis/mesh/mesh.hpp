@@ -37,26 +37,27 @@ struct Mesh {
   core::Comm comm;
 
   GlobalIndex global_cells = 0, global_vertices = 0, global_faces = 0;
-  LocalIndex owned_cells = 0;  ///< owned cells come first
+  LocalIndex owned_cells = 0;                     ///< owned cells come first
   LocalIndex cells = 0, vertices = 0, faces = 0;  ///< on this rank, ghosts included
 
-  View<double* [2]> coordinates;        ///< of vertices, physical
-  View<double* [2]> parameter;          ///< of vertices, in the parameter domain (the same View for the identity chart)
+  View<double* [2]> coordinates;  ///< of vertices, physical
+  View<double* [2]> parameter;    ///< of vertices, in the parameter domain (the same View for the identity chart)
   View<LocalIndex* [3]> cell_vertices;
   View<LocalIndex* [3]> cell_faces;
   View<LocalIndex* [2]> face_vertices;  ///< lower id first
-  View<LocalIndex* [2]> face_cells;     ///< first: the cell whose outward normal is the face normal, if on this rank; -1 where there is none
-  View<LocalIndex*> face_tag;           ///< -1 inside, else index into `tags`
-  View<LocalIndex*> ghost_patch_cells;  ///< ghost cells that share a vertex with an owned cell: with the owned ones, all cells of owned rows
+  View<LocalIndex* [2]> face_cells;  ///< first: the cell whose outward normal is the face normal, if on this rank; -1 where there is none
+  View<LocalIndex*> face_tag;        ///< -1 inside, else index into `tags`
+  View<LocalIndex*>
+      ghost_patch_cells;  ///< ghost cells that share a vertex with an owned cell: with the owned ones, all cells of owned rows
 
-  std::vector<std::string> tags;        ///< names of the parts of the boundary, the same on all ranks
+  std::vector<std::string> tags;  ///< names of the parts of the boundary, the same on all ranks
 
   std::vector<GlobalIndex> cell_id, vertex_id, face_id;
   std::vector<int> cell_owner, vertex_owner, face_owner;  ///< ranks
 
   /// Relation to the next coarser level (empty on the coarsest).
-  std::vector<LocalIndex> cell_parent;                     ///< coarse local cell
-  std::vector<std::array<LocalIndex, 2>> vertex_parents;   ///< coarse local vertices; both the same for a vertex of the coarse level
+  std::vector<LocalIndex> cell_parent;                    ///< coarse local cell
+  std::vector<std::array<LocalIndex, 2>> vertex_parents;  ///< coarse local vertices; both the same for a vertex of the coarse level
 
   Refinement refinement = Refinement::red;  ///< towards the next finer level
   Chart chart = Chart::identity;

@@ -1,0 +1,157 @@
+#include <Kokkos_Core.hpp>
+
+#include "patches.hpp"
+#include "thixis/mesh/build.hpp"
+#include "thixis/mesh/geometry.hpp"
+#include "thixis/mesh/host.hpp"
+
+namespace thixis::mesh {
+namespace {
+
+/// How a triangle is cut, in its six points: 0..2 its vertices, 3 + i the midpoint of its face i.
+struct Cut {
+  int child[4][3];     ///< points of child c
+  int face[4][3];      ///< face i of child c: the interior face k as k, the half at vertex v of the parent's face k as 3 + 3 k + v
+  int interior[3][2];  ///< end points of the interior face k
+};
+constexpr int half(int k, int v) { return 3 + 3 * k + v; }
+
+constexpr Cut red = {{{0, 5, 4}, {5, 1, 3}, {4, 3, 2}, {3, 4, 5}},
+                     {{0, half(1, 0), half(2, 0)}, {half(0, 1), 1, half(2, 1)}, {half(0, 2), half(1, 2), 2}, {0, 1, 2}},
+                     {{4, 5}, {5, 3}, {3, 4}}};
+
+constexpr Cut bisection = {{{5, 3, 0}, {5, 1, 3}, {4, 3, 2}, {4, 0, 3}},
+                           {{0, half(2, 0), 2}, {half(0, 1), 2, half(2, 1)}, {half(0, 2), half(1, 2), 1}, {0, 1, half(1, 0)}},
+                           {{3, 0}, {3, 4}, {3, 5}}};
+
+/// Keeps the vertices of the coarse level: same local number, same id.
+struct KeepVertices {
+  const Mesh& coarse;
+  HostMesh in;
+  Mesh& fine;
+  HostMesh out;  ///< first in.vertices entries written
+
+  void operator()(LocalIndex v) const {
+    for (int d = 0; d < 2; ++d) {
+      out.parameter(v, d) = in.parameter(v, d);
+      out.coordinates(v, d) = in.coordinates(v, d);
+    }
+    fine.vertex_id[v] = coarse.vertex_id[v];
+    fine.vertex_owner[v] = coarse.vertex_owner[v];
+    fine.vertex_parents[v] = {v, v};
+  }
+};
+
+/// Puts a vertex on the face F and halves it: half h = 0, 1 is 2F + h and holds the end vertex h. Leaves face_cells of the halves empty.
+struct CutFaces {
+  const Mesh& coarse;
+  HostMesh in;
+  Mesh& fine;
+  HostMesh out;
+
+  void operator()(LocalIndex F) const {
+    const LocalIndex a = in.face_vertices(F, 0), b = in.face_vertices(F, 1), m = coarse.vertices + F;
+    const double x = 0.5 * (in.parameter(a, 0) + in.parameter(b, 0)), y = 0.5 * (in.parameter(a, 1) + in.parameter(b, 1));
+    const Point point = physical(fine.chart, {x, y});
+    out.parameter(m, 0) = x, out.parameter(m, 1) = y;
+    out.coordinates(m, 0) = point.x, out.coordinates(m, 1) = point.y;
+    fine.vertex_id[m] = coarse.global_vertices + coarse.face_id[F];
+    fine.vertex_owner[m] = coarse.face_owner[F];
+    fine.vertex_parents[m] = {a, b};
+
+    for (int h = 0; h < 2; ++h) {
+      const LocalIndex H = 2 * F + h;
+      out.face_vertices(H, 0) = in.face_vertices(F, h), out.face_vertices(H, 1) = m;
+      out.face_cells(H, 0) = out.face_cells(H, 1) = -1;
+      out.face_tag(H) = in.face_tag(F);
+      fine.face_id[H] = 2 * coarse.face_id[F] + h;
+      fine.face_owner[H] = coarse.face_owner[F];
+    }
+  }
+};
+
+/// Cuts the cell K into 4K..4K+3, with its interior faces 2 faces + 3K + k. Needs the halves of its faces.
+struct CutCells {
+  const Mesh& coarse;
+  HostMesh in;
+  Mesh& fine;
+  HostMesh out;
+  Cut cut;
+
+  void operator()(LocalIndex K) const {
+    const LocalIndex point[6] = {in.cell_vertices(K, 0),
+                                 in.cell_vertices(K, 1),
+                                 in.cell_vertices(K, 2),
+                                 coarse.vertices + in.cell_faces(K, 0),
+                                 coarse.vertices + in.cell_faces(K, 1),
+                                 coarse.vertices + in.cell_faces(K, 2)};
+    for (int k = 0; k < 3; ++k) add_interior_face(K, k, point);
+    for (int c = 0; c < 4; ++c) add_child(K, c, point);
+  }
+
+  void add_interior_face(LocalIndex K, int k, const LocalIndex* point) const {
+    const LocalIndex F = interior_face(K, k);
+    const LocalIndex a = point[cut.interior[k][0]], b = point[cut.interior[k][1]];
+    const bool ascending = fine.vertex_id[a] < fine.vertex_id[b];
+    out.face_vertices(F, 0) = ascending ? a : b, out.face_vertices(F, 1) = ascending ? b : a;
+    out.face_tag(F) = -1;
+    fine.face_id[F] = 2 * coarse.global_faces + 3 * coarse.cell_id[K] + k;
+    fine.face_owner[F] = coarse.cell_owner[K];
+  }
+
+  void add_child(LocalIndex K, int c, const LocalIndex* point) const {
+    const LocalIndex child = 4 * K + c;
+    for (int i = 0; i < 3; ++i) out.cell_vertices(child, i) = point[cut.child[c][i]];
+    for (int i = 0; i < 3; ++i) {
+      const int code = cut.face[c][i];
+      const LocalIndex F = code < 3 ? interior_face(K, code) : half_face(K, (code - 3) / 3, point[(code - 3) % 3]);
+      out.cell_faces(child, i) = F;
+      out.face_cells(F, out.face_vertices(F, 0) == out.cell_vertices(child, (i + 1) % 3) ? 0 : 1) = child;
+    }
+    fine.cell_id[child] = 4 * coarse.cell_id[K] + c;
+    fine.cell_owner[child] = coarse.cell_owner[K];
+    fine.cell_parent[child] = K;
+  }
+
+  LocalIndex interior_face(LocalIndex K, int k) const { return 2 * coarse.faces + 3 * K + k; }
+  LocalIndex half_face(LocalIndex K, int k, LocalIndex vertex) const {
+    const LocalIndex F = in.cell_faces(K, k);
+    return 2 * F + (in.face_vertices(F, 0) == vertex ? 0 : 1);
+  }
+};
+
+template <class Kernel>
+void launch(const std::string& name, LocalIndex size, const Kernel& kernel) {
+  Kokkos::parallel_for("thixis::mesh::" + name,
+                       Kokkos::RangePolicy<Kokkos::DefaultHostExecutionSpace, Kokkos::IndexType<LocalIndex>>(0, size), kernel);
+}
+
+}  // namespace
+
+Mesh refine(const Mesh& coarse) {
+  Mesh fine{coarse.comm};
+  fine.global_cells = 4 * coarse.global_cells;
+  fine.global_vertices = coarse.global_vertices + coarse.global_faces;
+  fine.global_faces = 2 * coarse.global_faces + 3 * coarse.global_cells;
+  fine.owned_cells = 4 * coarse.owned_cells;
+  fine.cells = 4 * coarse.cells;
+  fine.vertices = coarse.vertices + coarse.faces;
+  fine.faces = 2 * coarse.faces + 3 * coarse.cells;
+  fine.tags = coarse.tags;
+  fine.refinement = coarse.refinement;
+  fine.chart = coarse.chart;
+  fine.cell_parent.resize(fine.cells);
+  fine.vertex_parents.resize(fine.vertices);
+
+  const HostMesh in = on_host(coarse), out = allocate(fine);
+  launch("keep_vertices", coarse.vertices, KeepVertices{coarse, in, fine, out});
+  launch("cut_faces", coarse.faces, CutFaces{coarse, in, fine, out});
+  const Cut& cut = coarse.refinement == Refinement::red ? red : bisection;
+  // An interior face has both its cells among the children, so that no entry of face_cells stays unset.
+  launch("cut_cells", coarse.cells, CutCells{coarse, in, fine, out, cut});
+  commit(out, fine);
+  find_ghost_patch_cells(fine);
+  return fine;
+}
+
+}  // namespace thixis::mesh

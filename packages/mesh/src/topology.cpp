@@ -1,0 +1,204 @@
+#include <Kokkos_Core.hpp>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <sstream>
+
+#include "thixis/core/error.hpp"
+#include "thixis/mesh/geometry.hpp"
+#include "thixis/mesh/host.hpp"
+#include "triangulation.hpp"
+
+namespace thixis::mesh {
+namespace {
+
+/// One side of a cell.
+struct Side {
+  LocalIndex low, high;  ///< end vertices
+  LocalIndex cell;
+  int i;     ///< opposite vertex
+  int slot;  ///< in face_cells: 0 if the cell has it from low to high
+
+  bool same_face(const Side& other) const { return low == other.low && high == other.high; }
+  bool operator<(const Side& other) const {
+    return low != other.low ? low < other.low : high != other.high ? high < other.high : slot < other.slot;
+  }
+};
+
+std::vector<Side> sorted_sides(const Triangulation& triangulation) {
+  std::vector<Side> sides;
+  sides.reserve(3 * triangulation.cells.size());
+  for (std::size_t K = 0; K < triangulation.cells.size(); ++K)
+    for (int i = 0; i < 3; ++i) {
+      const LocalIndex a = triangulation.cells[K][(i + 1) % 3], b = triangulation.cells[K][(i + 2) % 3];
+      sides.push_back({std::min(a, b), std::max(a, b), static_cast<LocalIndex>(K), i, a < b ? 0 : 1});
+    }
+  std::sort(sides.begin(), sides.end());
+  return sides;
+}
+
+std::string at(const Triangulation& triangulation, LocalIndex vertex) {
+  std::ostringstream text;
+  text << '(' << triangulation.points[vertex][0] << ", " << triangulation.points[vertex][1] << ')';
+  return text.str();
+}
+
+/// Counts the faces of sorted sides and throws unless each has one cell, or one on either side.
+LocalIndex count_faces(const std::vector<Side>& sides, const Triangulation& triangulation) {
+  LocalIndex faces = 0;
+  for (std::size_t k = 0; k < sides.size(); ++k) {
+    if (k == 0 || !sides[k].same_face(sides[k - 1])) ++faces;
+    else if (sides[k].slot == sides[k - 1].slot)
+      throw core::InputError(triangulation.name + ": triangles overlap at the edge from " + at(triangulation, sides[k].low) + " to " +
+                             at(triangulation, sides[k].high) + "; give a plane mesh in which an edge has two triangles at most.");
+  }
+  return faces;
+}
+
+int find_or_add(const std::string& name, std::vector<std::string>& names) {
+  const auto found = std::find(names.begin(), names.end(), name);
+  const auto position = static_cast<int>(found - names.begin());
+  if (found == names.end()) names.push_back(name);
+  return position;
+}
+
+void require_positive_areas(const Triangulation& triangulation, const HostMesh& host) {
+  for (std::size_t K = 0; K < triangulation.cells.size(); ++K) {
+    double longest = 0;
+    for (int i = 0; i < 3; ++i) {
+      const auto &a = triangulation.points[triangulation.cells[K][i]], &b = triangulation.points[triangulation.cells[K][(i + 1) % 3]];
+      longest = std::max(longest, std::hypot(b[0] - a[0], b[1] - a[1]));
+    }
+    if (!(cell_area(host.parameter, host.cell_vertices, static_cast<LocalIndex>(K)) > 1e-14 * longest * longest))
+      throw core::InputError(triangulation.name + ": the triangle at " + at(triangulation, triangulation.cells[K][0]) +
+                             " has no area; give a mesh without degenerate triangles.");
+  }
+}
+
+/// Gives the faces of the boundary the tags of their segments, "boundary" where there is none. The others have tag -1.
+void tag_boundary(const Triangulation& triangulation, const HostMesh& host, Mesh& mesh) {
+  std::vector<Side> segments;
+  for (const auto& segment : triangulation.boundary)
+    segments.push_back({std::min(segment.first, segment.second), std::max(segment.first, segment.second), 0, 0, segment.tag});
+  std::sort(segments.begin(), segments.end());
+  const auto refuse = [&](const Side& segment, const std::string& why) {
+    throw core::InputError(triangulation.name + ": the edge from " + at(triangulation, segment.low) + " to " +
+                           at(triangulation, segment.high) + " of the group '" + triangulation.tags[segment.slot] + "' " + why);
+  };
+
+  mesh.tags = triangulation.tags;
+  auto segment = segments.cbegin();
+  for (LocalIndex F = 0; F < mesh.faces; ++F) {  // faces and segments are both in the order of their vertices
+    const Side face = {host.face_vertices(F, 0), host.face_vertices(F, 1), 0, 0, -1};
+    if (segment != segments.cend() && *segment < face) break;
+    const auto first = segment;
+    while (segment != segments.cend() && segment->same_face(face)) ++segment;
+
+    const bool inside = host.face_cells(F, 0) >= 0 && host.face_cells(F, 1) >= 0;
+    if (inside) {
+      host.face_tag(F) = -1;
+    } else if (first == segment) {
+      host.face_tag(F) = find_or_add("boundary", mesh.tags);
+    } else {
+      host.face_tag(F) = first->slot;
+      if (const Side& last = *(segment - 1); last.slot != first->slot)
+        refuse(*first, "is in the group '" + mesh.tags[last.slot] + "', too; put each edge of the boundary in one group.");
+    }
+  }
+  if (segment != segments.cend()) refuse(*segment, "is no side of a triangle; give a mesh of the plane part only, without loose edges.");
+}
+
+template <class Index>
+void count_up(std::vector<Index>& numbers) {
+  std::iota(numbers.begin(), numbers.end(), Index(0));
+}
+
+}  // namespace
+
+Mesh make_mesh(const Triangulation& triangulation, const core::Comm& comm) {
+  if (triangulation.cells.size() > static_cast<std::size_t>(std::numeric_limits<LocalIndex>::max() / 12))
+    throw core::InputError(triangulation.name + ": the coarsest mesh is held by every rank; give a coarser one and more refinements.");
+  const std::vector<Side> sides = sorted_sides(triangulation);
+  Mesh mesh{comm};
+  mesh.global_cells = mesh.cells = static_cast<LocalIndex>(triangulation.cells.size());
+  mesh.global_vertices = mesh.vertices = static_cast<LocalIndex>(triangulation.points.size());
+  mesh.global_faces = mesh.faces = count_faces(sides, triangulation);
+  mesh.owned_cells = mesh.comm.rank() == 0 ? mesh.cells : 0;
+  mesh.refinement = triangulation.refinement;
+  mesh.chart = triangulation.chart;
+
+  const HostMesh host = allocate(mesh);
+  count_up(mesh.cell_id);
+  count_up(mesh.vertex_id);
+  count_up(mesh.face_id);
+  for (LocalIndex v = 0; v < mesh.vertices; ++v) {
+    const auto [x, y] = triangulation.points[v];
+    const Point point = physical(mesh.chart, {x, y});
+    host.parameter(v, 0) = x, host.parameter(v, 1) = y;
+    host.coordinates(v, 0) = point.x, host.coordinates(v, 1) = point.y;
+  }
+  for (LocalIndex K = 0; K < mesh.cells; ++K)
+    for (int i = 0; i < 3; ++i) host.cell_vertices(K, i) = triangulation.cells[K][i];
+  require_positive_areas(triangulation, host);
+
+  Kokkos::deep_copy(host.face_cells, -1);
+  LocalIndex F = -1;
+  for (std::size_t k = 0; k < sides.size(); ++k) {
+    const Side& side = sides[k];
+    if (k == 0 || !side.same_face(sides[k - 1])) ++F;
+    host.face_vertices(F, 0) = side.low, host.face_vertices(F, 1) = side.high;
+    host.face_cells(F, side.slot) = side.cell;
+    host.cell_faces(side.cell, side.i) = F;
+  }
+  tag_boundary(triangulation, host, mesh);
+  commit(host, mesh);
+  return mesh;
+}
+
+void require_simple_boundary(const Mesh& mesh, const std::string& name) {
+  const HostMesh host = on_host(mesh);
+  const auto& x = host.coordinates;
+  const auto at_vertex = [&](LocalIndex v) {
+    std::ostringstream text;
+    text << '(' << x(v, 0) << ", " << x(v, 1) << ')';
+    return text.str();
+  };
+
+  std::vector<int> degree(mesh.vertices, 0);  // boundary faces at a vertex
+  std::vector<LocalIndex> boundary;
+  for (LocalIndex F = 0; F < mesh.faces; ++F)
+    if (host.face_tag(F) >= 0) {
+      boundary.push_back(F);
+      for (int i = 0; i < 2; ++i)
+        if (++degree[host.face_vertices(F, i)] > 2)
+          throw core::InputError(name + ": the domain touches itself in the vertex " + at_vertex(host.face_vertices(F, i)) +
+                                 "; give a mesh whose boundary is made of simple closed curves.");
+    }
+
+  // A vertex can lie on a face only if both have the same projection on a line; an unlikely direction keeps the candidates few.
+  const double dx = std::cos(1.0), dy = std::sin(1.0);
+  const auto projection = [&](LocalIndex v) { return dx * x(v, 0) + dy * x(v, 1); };
+  std::vector<std::pair<double, LocalIndex>> order;
+  for (LocalIndex v = 0; v < mesh.vertices; ++v)
+    if (degree[v] > 0) order.emplace_back(projection(v), v);
+  std::sort(order.begin(), order.end());
+
+  for (const LocalIndex F : boundary) {
+    const LocalIndex a = host.face_vertices(F, 0), b = host.face_vertices(F, 1);
+    const double ex = x(b, 0) - x(a, 0), ey = x(b, 1) - x(a, 1), length = std::hypot(ex, ey), near = 1e-9 * length;
+    const auto [low, high] = std::minmax(projection(a), projection(b));
+    auto candidate = std::lower_bound(order.begin(), order.end(), std::make_pair(low - near, LocalIndex(-1)));
+    for (; candidate != order.end() && candidate->first <= high + near; ++candidate) {
+      const LocalIndex v = candidate->second;
+      const double vx = x(v, 0) - x(a, 0), vy = x(v, 1) - x(a, 1);
+      const double along = (vx * ex + vy * ey) / length, across = (ex * vy - ey * vx) / length;
+      if (v == a || v == b || std::abs(across) > near || along < -near || along > length + near) continue;
+      const bool at_end = along < near || along > length - near;
+      throw core::InputError(name + (at_end ? ": two nodes of the boundary lie at " : ": a node of the boundary lies inside an edge at ") +
+                             at_vertex(v) + "; give a conforming mesh (in Gmsh: merge duplicate nodes or entities with Coherence).");
+    }
+  }
+}
+
+}  // namespace thixis::mesh
