@@ -30,12 +30,12 @@ class ExpressionField final : public Field {
 
   void evaluate(const Points& points, double t, double* values) const override {
     std::array<double, block> time, radius;
-    time.fill(t);
+    std::fill_n(time.begin(), std::min(block, points.count), t);
     for (std::size_t begin = 0; begin < points.count; begin += block) {
       const Points part{std::min(block, points.count - begin), points.x + begin, points.y + begin};
       if (radial_)
         for (std::size_t i = 0; i < part.count; ++i) radius[i] = std::hypot(part.x[i] - centre_[0], part.y[i] - centre_[1]);
-      else radius.fill(0.0);
+      else std::fill_n(radius.begin(), part.count, 0.0);
       const double* variables[] = {part.x, part.y, time.data(), radius.data()};
       expression_.evaluate(part.count, variables, values + begin);
       require_finite(name_, part, t, values + begin);

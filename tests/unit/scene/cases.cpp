@@ -71,7 +71,9 @@ TEST(Case, is_complementary) {
       EXPECT_GE(lambda[i], 0) << c.name;
       EXPECT_EQ((u1[i] - u2[i]) * lambda[i], 0) << c.name;
       EXPECT_EQ(level_set[i]<0, lambda[i]> 0) << c.name << ": contact is where the level set is negative";
-      if (level_set[i] > 1e-3) EXPECT_GT(u1[i] - u2[i], 0) << c.name;
+      if (level_set[i] > 1e-3) {
+        EXPECT_GT(u1[i] - u2[i], 0) << c.name;
+      }
     }
   }
 }
