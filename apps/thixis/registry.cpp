@@ -12,6 +12,7 @@ namespace {
 method::SpaceFactory make_method(const method::MethodParams& method) {
   switch (method.name) {
     case method::MethodName::fem:
+      if (method.degree != 1) throw core::InputError("method/degree: this version serves fem of degree 1 only; write 1.");
       return fem::make_lagrange_space;
     default:
       throw core::InputError("method/name: this version serves fem only; write fem.");

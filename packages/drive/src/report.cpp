@@ -145,7 +145,7 @@ ExitCode run(const RunParams& params, const models::Model& model, const core::De
   }
   const mesh::Mesh& finest = hierarchy.finest();
   // what is wrong in the scene on this mesh shows here, before anything is written
-  model.check(hierarchy.levels.front(), params.output.field_names());
+  model.check(finest, params.output.field_names());
 
   output::RunDirectory directory(params.output.directory, comm);
   directory.write_deck(core::to_xml(RunParams::schema(), params));

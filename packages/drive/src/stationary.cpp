@@ -33,6 +33,7 @@ Outcome solve_stationary(const models::Model& model, const mesh::Hierarchy& hier
     const auto X = outcome.discretization ? discretization->nested_start(*outcome.discretization, *outcome.X) : discretization->cold_start();
     outcome.discretization = std::move(discretization);
     outcome.X = X;
+    outcome.mesh = &hierarchy.levels[level];
     if (observer.level) observer.level(hierarchy.levels[level], level, outcome.discretization->sizes());
     if (outcome.not_wanted) return outcome;
 

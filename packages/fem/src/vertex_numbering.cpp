@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "thixis/algebra/tpetra.hpp"
+#include "thixis/method/quadrature.hpp"
 
 namespace thixis::fem {
 namespace {
@@ -28,16 +29,13 @@ VertexNumbering number_vertices(const mesh::Mesh& mesh, const std::vector<bool>&
   VertexNumbering numbering;
   const int rank = mesh.comm.rank();
   const auto cell_vertices = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), mesh.cell_vertices);
-  const auto ghost_patch_cells = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), mesh.ghost_patch_cells);
-
-  numbering.patch_cells.reserve(mesh.owned_cells + ghost_patch_cells.extent(0));
-  for (LocalIndex K = 0; K < mesh.owned_cells; ++K) numbering.patch_cells.push_back(K);
-  for (std::size_t g = 0; g < ghost_patch_cells.extent(0); ++g) numbering.patch_cells.push_back(ghost_patch_cells(g));
+  const auto patch_cells = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), method::patch_cells(mesh));
+  const std::size_t patch_count = patch_cells.extent(0);
 
   // vertices that this rank needs: its own first, then the ghosts by owner and id
   std::vector<bool> needed(mesh.vertices, false);
-  for (const LocalIndex K : numbering.patch_cells)
-    for (int i = 0; i < 3; ++i) needed[cell_vertices(K, i)] = true;
+  for (std::size_t k = 0; k < patch_count; ++k)
+    for (int i = 0; i < 3; ++i) needed[cell_vertices(patch_cells(k), i)] = true;
   std::vector<LocalIndex> ghosts;
   for (LocalIndex v = 0; v < mesh.vertices; ++v) {
     if (mesh.vertex_owner[v] == rank)
@@ -94,10 +92,10 @@ VertexNumbering number_vertices(const mesh::Mesh& mesh, const std::vector<bool>&
   numbering.columns = algebra::map_of(columns, mesh.comm);
   Kokkos::deep_copy(numbering.column_of_vertex, column_of_vertex);
 
-  numbering.cell_columns = mesh::View<LocalIndex* [3]>("thixis::fem::cell_columns", numbering.patch_cells.size());
+  numbering.cell_columns = mesh::View<LocalIndex* [3]>("thixis::fem::cell_columns", patch_count);
   const auto cell_columns = Kokkos::create_mirror_view(numbering.cell_columns);
-  for (std::size_t k = 0; k < numbering.patch_cells.size(); ++k)
-    for (int i = 0; i < 3; ++i) cell_columns(k, i) = column_of_vertex(cell_vertices(numbering.patch_cells[k], i));
+  for (std::size_t k = 0; k < patch_count; ++k)
+    for (int i = 0; i < 3; ++i) cell_columns(k, i) = column_of_vertex(cell_vertices(patch_cells(k), i));
   Kokkos::deep_copy(numbering.cell_columns, cell_columns);
   return numbering;
 }

@@ -18,8 +18,7 @@ struct VertexNumbering {
   std::vector<LocalIndex> vertex_of_column;   ///< local vertex of a local column
   mesh::View<LocalIndex*> column_of_vertex;   ///< -1: Dirichlet, or not needed on this rank
   std::vector<LocalIndex> dirichlet_tag;      ///< per local vertex: tag of its Dirichlet data, -1 for an unknown (or not needed)
-  std::vector<LocalIndex> patch_cells;        ///< owned cells and the ghosts that touch owned vertices
-  mesh::View<LocalIndex* [3]> cell_columns;   ///< columns of the vertices of patch_cells
+  mesh::View<LocalIndex* [3]> cell_columns;   ///< columns of the vertices of method::patch_cells
 };
 
 /// dirichlet[tag]: does this part of the boundary carry Dirichlet data. Collective.

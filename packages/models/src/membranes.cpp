@@ -1,11 +1,14 @@
 #include "thixis/models/membranes.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "membrane_problem.hpp"
 #include "thixis/core/error.hpp"
 #include "thixis/core/timer.hpp"
+#include "thixis/mesh/host.hpp"
 
 namespace thixis::models {
 namespace {
@@ -32,7 +35,9 @@ Boundary boundary_of(const scene::MembraneScene& scene, const mesh::Mesh& mesh) 
   for (const auto& tag : mesh.tags) {
     const auto given = scene.boundary.find(tag);
     const auto& condition = given == scene.boundary.end() ? scene.default_boundary : given->second;
-    const bool dirichlet = condition.kind == scene::BoundaryCondition::Kind::dirichlet;
+    const bool dirichlet = condition.kind == scene::BoundaryKind::dirichlet;
+    if (dirichlet && !(condition.value[0] && condition.value[1]))
+      throw core::InputError("scene/boundary/" + tag + ": nothing is said about this part of the boundary; give g1 and g2 there, or g1 and g2 in scene/data for all of it.");
     boundary.dirichlet.push_back(dirichlet);
     for (int alpha = 0; alpha < 2; ++alpha) {
       boundary.values[alpha].dirichlet.push_back(dirichlet ? condition.value[alpha] : nullptr);
@@ -44,19 +49,36 @@ Boundary boundary_of(const scene::MembraneScene& scene, const mesh::Mesh& mesh) 
   return boundary;
 }
 
-/// The gap of the boundary data must not be negative where membranes are held.
-void check_boundary_gap(const Coefficients& g1, const Coefficients& g2, const mesh::Mesh& mesh) {
-  const auto upper = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), g1);
-  const auto lower = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), g2);
-  double worst = 0;
-  for (std::size_t i = 0; i < upper.extent(0); ++i) {
-    const double slack = 1e-12 * (std::abs(upper(i)) + std::abs(lower(i)));
-    if (upper(i) < lower(i) - slack) worst = std::max(worst, lower(i) - upper(i));
-  }
-  worst = mesh.comm.max(worst);
-  if (worst > 0)
-    throw core::InputError("scene: on the boundary the upper membrane lies below the lower one, g1 < g2 by up to " + std::to_string(worst) +
-                           "; give boundary data with g1 >= g2.");
+/// Throws where g1 < g2 at an end of a held face: membranes that cross at their boundary have no solution. Collective.
+void check_boundary_gap(const Boundary& boundary, const mesh::Mesh& mesh) {
+  mesh.comm.together([&] {
+    const auto host = mesh::on_host(mesh);
+    for (std::size_t tag = 0; tag < boundary.dirichlet.size(); ++tag) {
+      if (!boundary.dirichlet[tag]) continue;
+      std::vector<double> x, y;
+      for (LocalIndex F = 0; F < mesh.faces; ++F)
+        for (int i = 0; i < 2 && host.face_tag(F) == static_cast<LocalIndex>(tag); ++i) {
+          x.push_back(host.coordinates(host.face_vertices(F, i), 0));
+          y.push_back(host.coordinates(host.face_vertices(F, i), 1));
+        }
+      std::vector<double> upper(x.size()), lower(x.size());
+      boundary.values[0].dirichlet[tag]->evaluate({x.size(), x.data(), y.data()}, 0, upper.data());
+      boundary.values[1].dirichlet[tag]->evaluate({x.size(), x.data(), y.data()}, 0, lower.data());
+      for (std::size_t i = 0; i < x.size(); ++i)
+        if (upper[i] < lower[i] - 1e-12 * (std::abs(upper[i]) + std::abs(lower[i])))
+          throw core::InputError(fmt::format("scene/data: on the boundary '{}' the upper membrane lies below the lower one: g1 = {:.6g} < g2 = {:.6g} "
+                                             "at ({:.6g}, {:.6g}); give boundary data with g1 >= g2.",
+                                             mesh.tags[tag], upper[i], lower[i], x[i], y[i]));
+    }
+  });
+}
+
+const char* const field_names[] = {"u1", "u2", "lambda", "gap", "active"};
+
+void check_field_names(const std::vector<std::string>& names) {
+  for (const auto& name : names)
+    if (std::find(std::begin(field_names), std::end(field_names), name) == std::end(field_names))
+      throw core::InputError(fmt::format("output/fields: there is no field '{}'; write all, none, or some of {}.", name, fmt::join(field_names, ", ")));
 }
 
 class MembraneDiscretization final : public Discretization {
@@ -66,9 +88,8 @@ class MembraneDiscretization final : public Discretization {
       : scene_(scene), initial_(initial), boundary_(boundary_of(scene, mesh)) {
     const core::Region region("assembly");
     space_ = make_space(mesh, {boundary_.dirichlet, scene.interface_level_set, method});
-    for (int alpha = 0; alpha < 2; ++alpha) lift_[alpha] = space_->lift(boundary_.values[alpha], 0);
-    check_boundary_gap(lift_[0], lift_[1], mesh);
     for (int alpha = 0; alpha < 2; ++alpha) {
+      lift_[alpha] = space_->lift(boundary_.values[alpha], 0);
       body_[alpha] = Teuchos::rcp(new Vector(space_->map()));
       space_->load(*scene_.force[alpha], boundary_.values[alpha], 0, *body_[alpha]);
     }
@@ -101,8 +122,7 @@ class MembraneDiscretization final : public Discretization {
 
   std::optional<double> energy_error(const Vector& X) const override {
     if (!scene_.exact) return std::nullopt;
-    const core::Region region("estimate");
-    double sum = 0;
+        double sum = 0;
     for (int alpha = 0; alpha < 2; ++alpha)
       sum += space_->energy_error(*scene_.tension[alpha], membrane(X, alpha), scene_.exact->gradient[alpha], 0);
     return std::sqrt(sum);
@@ -143,31 +163,32 @@ class MembraneDiscretization final : public Discretization {
     return data;
   }
 
-  std::vector<output::FieldData> fields(const Vector& X, const std::vector<std::string>& names) const override {
-    const auto wanted = [&](const char* name) {
-      return names.empty() || std::find(names.begin(), names.end(), name) != names.end();
+  std::vector<output::FieldData> fields(const Vector& X, const complementarity::ActiveSet& active,
+                                        const std::vector<std::string>& names) const override {
+    std::vector<output::FieldData> fields;
+    const auto add = [&](const char* name, auto values) {
+      if (names.empty() || std::find(names.begin(), names.end(), name) != names.end())
+        fields.push_back({name, output::Centre::vertex, values()});
     };
-    for (const auto& name : names)
-      if (name != "u1" && name != "u2" && name != "lambda" && name != "gap" && name != "active")
-        throw core::InputError("output/fields: there is no field '" + name + "'; write all, none, or some of u1, u2, lambda, gap, active.");
-    const auto u1 = space_->at_vertices(membrane(X, 0)), u2 = space_->at_vertices(membrane(X, 1));
     MultiVector x(space_->map(), 3);
     split(X, x);
-    auto lambda = space_->at_vertices(space_->complete(*x.getVector(2), nothing()));
-    std::vector<double> gap(u1.size()), active(u1.size());
-    for (std::size_t v = 0; v < u1.size(); ++v) {
-      gap[v] = u1[v] - u2[v];
-      active[v] = gap[v] <= lambda[v] && lambda[v] > 0 ? 1 : 0;
-    }
-    std::vector<output::FieldData> fields;
-    const auto add = [&](const char* name, std::vector<double> values) {
-      if (wanted(name)) fields.push_back({name, output::Centre::vertex, std::move(values)});
+    const auto difference = [&] {
+      auto gap = space_->at_vertices(membrane(X, 0));
+      const auto lower = space_->at_vertices(membrane(X, 1));
+      for (std::size_t v = 0; v < gap.size(); ++v) gap[v] -= lower[v];
+      return gap;
     };
-    add("u1", u1);
-    add("u2", u2);
-    add("lambda", std::move(lambda));
-    add("gap", std::move(gap));
-    add("active", std::move(active));
+    const auto flags = [&] {
+      Vector flag(space_->map());
+      const auto out = algebra::host_overwrite(flag);
+      for (std::size_t l = 0; l < active.flags().size(); ++l) out(l) = active.flags()[l];
+      return flag;
+    };
+    add("u1", [&] { return space_->at_vertices(membrane(X, 0)); });
+    add("u2", [&] { return space_->at_vertices(membrane(X, 1)); });
+    add("lambda", [&] { return space_->at_vertices(space_->complete(*x.getVector(2), nothing())); });
+    add("gap", difference);
+    add("active", [&] { return space_->at_vertices(space_->complete(flags(), nothing())); });
     return fields;
   }
 
@@ -230,7 +251,11 @@ class Membranes final : public Model {
       if (!initial_[field]) initial_[field] = scene_.initial[field];
   }
   std::string name() const override { return "membranes"; }
-  std::string case_name() const override { return scene_.name; }
+  std::string case_name() const override { return scene_.name == "data" ? "" : scene_.name; }
+  void check(const mesh::Mesh& mesh, const std::vector<std::string>& field_names) const override {
+    check_field_names(field_names);
+    check_boundary_gap(boundary_of(scene_, mesh), mesh);
+  }
   std::unique_ptr<Discretization> discretize(const mesh::Mesh& mesh) const override {
     return std::make_unique<MembraneDiscretization>(scene_, make_space_, method_, linear_, initial_, mesh);
   }

@@ -26,9 +26,10 @@ struct Observer {
 
 /// The solution on the finest level reached, and what it took.
 struct Outcome {
+  const mesh::Mesh* mesh = nullptr;
   std::unique_ptr<models::Discretization> discretization;
   Teuchos::RCP<algebra::Vector> X;
-  bool solved = false;        ///< false also where nothing was to be solved
+  bool solved = false;
   bool not_wanted = false;    ///< max iterations = 0: only counted
   complementarity::NewtonReport finest;
   int newton_iterations = 0, linear_iterations = 0;  ///< on all levels

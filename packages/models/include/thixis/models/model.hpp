@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "thixis/complementarity/active_set.hpp"
 #include "thixis/complementarity/kkt.hpp"
 #include "thixis/complementarity/problem.hpp"
 #include "thixis/mesh/mesh.hpp"
@@ -37,7 +38,8 @@ class Discretization {
   /// Everything the verifier needs, recomputed from X cell by cell.
   virtual complementarity::KktData kkt_data(const algebra::Vector& X) const = 0;
   /// The fields that the model can show, by name; `names` empty: all.
-  virtual std::vector<output::FieldData> fields(const algebra::Vector& X, const std::vector<std::string>& names) const = 0;
+  virtual std::vector<output::FieldData> fields(const algebra::Vector& X, const complementarity::ActiveSet& active,
+                                                const std::vector<std::string>& names) const = 0;
 };
 
 /// A scene before it meets a mesh.
@@ -46,6 +48,9 @@ class Model {
   virtual ~Model() = default;
   virtual std::string name() const = 0;
   virtual std::string case_name() const = 0;  ///< empty for data of the user
+  /// Throws InputError for what only a mesh shows: unknown boundary tags, boundary data that contradict each other, unknown field names.
+  /// Collective; to be asked before anything is computed or written.
+  virtual void check(const mesh::Mesh& mesh, const std::vector<std::string>& field_names) const = 0;
   virtual std::unique_ptr<Discretization> discretize(const mesh::Mesh& mesh) const = 0;
 };
 
