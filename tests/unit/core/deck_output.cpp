@@ -107,4 +107,19 @@ TEST(DeckOutput, a_name_described_twice_is_an_internal_error) {
   EXPECT_THROW(twice(), Error);
 }
 
+TEST(DeckOutput, a_default_out_of_its_range_is_an_internal_error) {
+  const auto wrong = [] { Schema<TimeParams>("time", "").parameter("end", &TimeParams::end, above(1), ""); };
+  EXPECT_THROW(wrong(), Error);
+}
+
+TEST(DeckOutput, an_empty_array_that_must_not_be_empty_is_not_given) {
+  struct Params {
+    std::vector<double> centre;
+  };
+  const auto schema = Schema<Params>("thixis", "").parameter("centre", &Params::centre, entries(2), "Middle.");
+  EXPECT_EQ(to_xml(schema, Params{}), "<ParameterList name=\"thixis\">\n</ParameterList>\n");
+  EXPECT_EQ(to_xml(schema, Params{{1, 2}}),
+            "<ParameterList name=\"thixis\">\n  <Parameter name=\"centre\" type=\"Array(double)\" value=\"{1, 2}\"/>\n</ParameterList>\n");
+}
+
 }  // namespace thixis::core::test
