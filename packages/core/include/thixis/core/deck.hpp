@@ -43,10 +43,13 @@ class Deck {
     std::string name;
     bool list = false;
     std::string type, value;  ///< of a parameter; no type: given by --set
+    bool complete = true;     ///< of a parameter: has a type and a value; otherwise that is among the mistakes
     int line = 0;
     int assignment = -1;  ///< the number of the --set that made it, or -1
     std::vector<Entry> inside;
     const Entry* find(const std::string& member, bool is_list) const;
+    /// The entry at a path relative to this list, or the innermost given one on the way (then `exact` becomes false).
+    const Entry& along(const std::string& path, bool& exact) const;
   };
   /// A mistake of form (unknown element, missing attribute, duplicate), found while reading.
   struct Mistake {
@@ -56,9 +59,7 @@ class Deck {
   };
 
  private:
-  friend class XmlReader;
   void fill(const Description& description, void* params) const;
-  const Entry* nearest(const std::string& path, bool& exact) const;
   std::string message(const Mistake& mistake) const;
 
   std::string file_;

@@ -1,0 +1,141 @@
+#include "thixis/core/deck.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "block_reader.hpp"
+#include "thixis/core/text.hpp"
+#include "xml_reader.hpp"
+
+namespace thixis::core {
+
+namespace {
+
+std::string text_of_file(const std::string& path) {
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) throw FileError(fmt::format("{}: this is a folder; give the deck, an XML file.", path));
+  if (!std::filesystem::exists(path, error)) throw FileError(fmt::format("{}: there is no such file; give the path of a deck.", path));
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  if (file) text << file.rdbuf();
+  if (!file) throw FileError(fmt::format("{}: the file can not be read; check its permissions.", path));
+  return text.str();
+}
+
+std::vector<std::string> split_path(const std::string& path) {
+  std::vector<std::string> names;
+  std::istringstream stream(path);
+  for (std::string name; std::getline(stream, name, '/');) names.push_back(name);
+  if (path.empty() || path.back() == '/') names.emplace_back();
+  return names;
+}
+
+}  // namespace
+
+const Deck::Entry* Deck::Entry::find(const std::string& member, bool is_list) const {
+  const auto found = std::find_if(inside.begin(), inside.end(), [&](const Entry& e) { return e.list == is_list && e.name == member; });
+  return found == inside.end() ? nullptr : &*found;
+}
+
+const Deck::Entry& Deck::Entry::along(const std::string& path, bool& exact) const {
+  const Entry* place = this;
+  exact = true;
+  if (path.empty()) return *place;
+  const auto names = split_path(path);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const Entry* next = place->find(names[i], true);
+    if (next == nullptr && i + 1 == names.size()) next = place->find(names[i], false);
+    exact = next != nullptr;
+    if (!exact) break;
+    place = next;
+  }
+  return *place;
+}
+
+Deck Deck::read(const std::string& path, const Comm& comm) {
+  return from_text(comm.on_root([&] { return text_of_file(path); }), path);
+}
+
+Deck Deck::from_text(const std::string& text, const std::string& name) {
+  Deck deck;
+  deck.file_ = name;
+  deck.root_ = read_xml(text, name, deck.mistakes_);
+  return deck;
+}
+
+void Deck::set(const std::string& assignment) {
+  const auto equals = assignment.find('=');
+  const auto names = split_path(assignment.substr(0, equals));
+  if (equals == std::string::npos || std::any_of(names.begin(), names.end(), [](const std::string& name) { return name.empty(); }))
+    throw InputError(fmt::format("--set {}: this is no assignment; write path=value, e.g. --set method/degree=3.", assignment));
+
+  const int number = static_cast<int>(assignments_.size());
+  assignments_.push_back(assignment);
+  Entry* place = &root_;
+  const auto member = [&](const std::string& name, bool list) -> Entry& {
+    const auto found =
+        std::find_if(place->inside.begin(), place->inside.end(), [&](const Entry& e) { return e.list == list && e.name == name; });
+    if (found != place->inside.end()) return *found;
+    Entry entry;
+    entry.name = name;
+    entry.list = list;
+    entry.assignment = number;
+    return place->inside.emplace_back(entry);
+  };
+  for (std::size_t i = 0; i + 1 < names.size(); ++i) place = &member(names[i], true);
+  Entry& parameter = member(names.back(), false);
+  parameter.type.clear();
+  parameter.value = assignment.substr(equals + 1);
+  parameter.complete = true;
+  parameter.assignment = number;
+}
+
+void Deck::fill(const Description& description, void* params) const {
+  BlockReader reader(description, mistakes_);
+  if (root_.name != description.name())
+    reader.add(root_, "",
+               root_.name.empty()
+                   ? fmt::format("the outermost list has no name; write <ParameterList name=\"{}\">.", description.name())
+                   : fmt::format("the outermost list is called '{}'; write <ParameterList name=\"{}\">.", root_.name, description.name()));
+  reader.read(description, params, &root_, root_, "");
+  auto mistakes = std::move(reader).mistakes();
+  if (mistakes.empty()) return;
+  std::stable_sort(mistakes.begin(), mistakes.end(), [](const Mistake& a, const Mistake& b) {
+    return a.assignment != b.assignment ? a.assignment < b.assignment : a.assignment < 0 && a.line < b.line;
+  });
+  std::vector<std::string> lines;
+  for (const auto& mistake : mistakes) lines.push_back(message(mistake));
+  throw InputError(join(lines, "\n"));
+}
+
+std::string Deck::message(const Mistake& mistake) const {
+  const std::string place =
+      mistake.assignment < 0 ? fmt::format("{}:{}", file_, mistake.line) : fmt::format("--set {}", assignments_[mistake.assignment]);
+  const std::string& path = mistake.path.empty() ? root_.name : mistake.path;
+  return fmt::format("{}: {}{}{}", place, path, path.empty() ? "" : ": ", mistake.sentence);
+}
+
+InputError Deck::error(const std::string& path, const std::string& sentence) const {
+  bool exact = false;
+  const Entry& place = root_.along(path, exact);
+  return InputError(message({place.line, place.assignment, path, sentence}));
+}
+
+bool Deck::given(const std::string& path) const {
+  bool exact = false;
+  root_.along(path, exact);
+  return exact;
+}
+
+std::string Deck::folder() const {
+  const std::string folder = std::filesystem::path(file_).parent_path().string();
+  return folder.empty() ? "." : folder;
+}
+
+std::string Deck::stem() const { return std::filesystem::path(file_).stem().string(); }
+
+}  // namespace thixis::core
