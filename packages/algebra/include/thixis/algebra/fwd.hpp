@@ -1,7 +1,7 @@
 #pragma once
 /// The Tpetra types that Thixis uses, declared without a Tpetra header: one scalar, one pair of ordinals, the default node.
 /// `src/aliases.cpp` proves that they are Tpetra's own defaults.
-#include <KokkosCore_config.h>
+#include <Kokkos_Macros.hpp>
 
 #include <Teuchos_RCPDecl.hpp>
 

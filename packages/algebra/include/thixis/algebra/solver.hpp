@@ -26,20 +26,22 @@ struct LinearParams {
   static const core::Schema<LinearParams>& schema();
 };
 
-/// When a Krylov loop ends: at |b - A x| <= tolerance, or as soon as `criterion`, asked every `check_every` iterations, says so.
+/// When a Krylov loop ends: at |b - A x| <= tolerance, or as soon as `criterion`, asked every `check_every` iterations (counted through
+/// restarts), says so. It is asked once more, between, if the iterate can get no better because of rounding.
 struct LinearStop {
   double tolerance = 0;  ///< absolute, Euclidean norm of the unpreconditioned residual
   int check_every = 0;   ///< 0: never ask
-  /// (x^i, i, |b - A x^i|) -> stop now? x^i is a copy and may be kept.
+  /// (x^i, i, |b - A x^i|) -> stop now? Called on all ranks, which must agree; x^i is there during the call only. The residual is that of
+  /// the Krylov recursion, equal to the true one up to rounding.
   std::function<bool(const Vector& x, int iteration, double residual)> criterion;
 };
 
 struct LinearReport {
   int iterations = 0;
-  double residual = 0;      ///< |b - A x| at the end, computed from x
-  bool converged = false;   ///< the tolerance or the criterion was met
+  double residual = 0;     ///< |b - A x| at the end, computed from x; NaN if there is no finite iterate (x is then as it was)
+  bool converged = false;  ///< the tolerance or the criterion was met
   bool by_criterion = false;
-  std::string reason;       ///< one clause for the log when not converged
+  std::string reason;  ///< one clause for the log when not converged
 };
 
 /// A x = b on all ranks. Symbolic work is done once per graph, numeric work at each `set_matrix`.
@@ -58,6 +60,7 @@ class Solver {
   LinearReport solve(const Vector& b, Vector& x, const LinearStop& stop) const;
 
   double seconds_preconditioner() const;  ///< total time spent in set_matrix
+  int symbolic_setups() const;            ///< how often a pattern was analysed: once per graph (muelu, overlapping ilu: at each set_matrix)
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;

@@ -1,0 +1,12 @@
+#pragma once
+#include <memory>
+
+#include "method.hpp"
+
+namespace thixis::algebra {
+
+/// LU on rank 0 with one step of iterative refinement where the residual asks for it. Converged means |b - A x| <= tolerance, or, since no
+/// solver can do better than rounding, |b - A x| <= 1e-8 |b|. The criterion is not asked.
+std::unique_ptr<Method> make_direct();
+
+}  // namespace thixis::algebra
