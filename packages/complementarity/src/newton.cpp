@@ -61,7 +61,7 @@ struct Tests {
     add(small, new SmallResidual(system));
     if (full_min) add(settled, new SettledContactSet(system));
     if (full_min) add(cycle, new Cycle(system));
-    if (steps == Steps::full && params.globalization == Globalization::hybrid) add(growing, new Growing(10));
+    if (steps == Steps::full && params.globalization == Globalization::hybrid) add(growing, new Growing);
     if (steps == Steps::damped && !damped_to_the_end) add(fallen, new Fallen(fall));
     add(most, new NOX::StatusTest::MaxIters(most_steps));
   }
@@ -166,7 +166,7 @@ class Run {
     }
     ++report_.fallbacks;
     const std::string why = ending == Ending::cycle     ? fmt::format("Newton-min cycles with period {}", period_)
-                            : ending == Ending::growing ? std::string("The residual has grown in ten successive steps")
+                            : ending == Ending::growing ? std::string("The residual keeps growing")
                                                         : std::string("The residual is not finite");
     system_.say(fmt::format("{} (step {}): damped Fischer-Burmeister steps until the residual has fallen by a factor of {:.0e}.", why,
                             report_.steps, fall_));
@@ -174,6 +174,7 @@ class Run {
 
   NewtonReport conclude(Ending ending) {
     report_.converged = ending == Ending::converged;
+    if (report_.residuals.empty()) report_.residuals.push_back(last_.residual);
     report_.why = sentence(ending);
     report_.linear_iterations = system_.linear_iterations();
     report_.residual_equations = last_.equations;

@@ -34,9 +34,12 @@ bool Fallen::ask(const State& now, const State&, int k) {
   return k > 0 && now.residual <= factor_ * start_;
 }
 
-bool Growing::ask(const State& now, const State& before, int k) {
-  grown_ = k > 0 && now.residual > before.residual ? grown_ + 1 : 0;
-  return grown_ >= steps_;
+bool Growing::ask(const State& now, const State&, int k) {
+  constexpr int window = 10;
+  residuals_.push_back(now.residual);
+  if (k < window) return false;
+  grown_ = now.residual > residuals_[k - window] ? grown_ + 1 : 0;
+  return grown_ >= window;
 }
 
 }  // namespace thixis::complementarity

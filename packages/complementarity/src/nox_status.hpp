@@ -2,6 +2,7 @@
 #include <NOX_StatusTest_Generic.H>
 
 #include <unordered_map>
+#include <vector>
 
 #include "nox_group.hpp"
 
@@ -73,14 +74,14 @@ class Fallen : public Question {
   double start_ = 0;
 };
 
-/// |R| has grown in so many successive steps.
+/// |R_k| > |R_{k-10}| for ten successive k: growth that is more than the ups and downs of Newton-min.
 class Growing : public Question {
  public:
-  explicit Growing(int steps) : Question(NOX::StatusTest::Failed), steps_(steps) {}
+  Growing() : Question(NOX::StatusTest::Failed) {}
 
  private:
   bool ask(const State& now, const State& before, int k) override;
-  int steps_;
+  std::vector<double> residuals_;
   int grown_ = 0;
 };
 

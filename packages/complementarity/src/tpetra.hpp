@@ -13,7 +13,7 @@ using Execution = algebra::Vector::execution_space;
 
 inline core::Comm comm_of(const algebra::Map& map) {
   const auto comm = Teuchos::rcp_dynamic_cast<const Teuchos::MpiComm<int>>(map.getComm());
-  return core::Comm(comm.is_null() ? MPI_COMM_SELF : *comm->getRawMpiComm());
+  return core::Comm(comm.is_null() ? MPI_COMM_SELF : (*comm->getRawMpiComm())());
 }
 
 /// The values of a vector on this rank, read or overwritten. The view must not outlive the statement or block that uses it.

@@ -68,8 +68,8 @@ struct NewtonReport {
 /// - `none`: undamped, but when Newton-min cycles, damped. A cycle is a contact set seen before, with another one in between, at the same
 ///   |R| (up to 0.1 %), all linear systems since then solved to their tolerance: for linear E, K, G a proof that Newton-min does not end.
 /// - `line search`: damped steps first; Fischer–Burmeister stays damped to the end.
-/// - `hybrid`: as `none`; damped steps also, from the iterate where the undamped ones began, when |R| is not finite or has grown in ten
-///   successive steps.
+/// - `hybrid`: as `none`; damped steps also, from the iterate where the undamped ones began, when |R| is not finite, or for ten successive
+///   steps has been above its value ten steps before.
 ///
 /// max iterations = 0 evaluates nothing and returns not converged. NaN in the problem's answers ends the run, not converged.
 NewtonReport newton(Problem& problem, algebra::Vector& X, const NewtonParams& newton, const StoppingParams& stopping, int check_every,
