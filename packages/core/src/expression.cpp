@@ -4,7 +4,9 @@
 #include <muParser.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <regex>
 
 #include "thixis/core/assert.hpp"
 #include "thixis/core/error.hpp"
@@ -39,17 +41,26 @@ std::string mistake_of_form(const std::string& text) {
   return "";
 }
 
-std::string reason(const mu::ParserError& error, const mu::Parser& parser, const std::vector<std::string>& names) {
+/// The first name in the text that means nothing, with the nearest known one. The parser would stumble over what follows the name.
+std::string unknown_name(const std::string& text, const mu::Parser& parser, const std::vector<std::string>& names) {
+  static const std::regex word("[0-9.]+([eE][+-]?[0-9]+)?|[A-Za-z_][A-Za-z_0-9]*");
+  for (auto at = std::sregex_iterator(text.begin(), text.end(), word); at != std::sregex_iterator(); ++at) {
+    const std::string name = at->str();
+    const bool number = std::isdigit(static_cast<unsigned char>(name[0])) != 0 || name[0] == '.';
+    if (number || std::find(names.begin(), names.end(), name) != names.end() || parser.GetFunDef().count(name) != 0) continue;
+    std::vector<std::string> known = names;
+    for (const auto& function : parser.GetFunDef()) known.push_back(function.first);
+    const auto near = nearest(name, known);
+    return fmt::format(
+        "has the unknown name '{}'; {}", name,
+        near ? fmt::format("did you mean '{}'?", *near) : fmt::format("known are {} and functions such as sin", join(names)));
+  }
+  return "";
+}
+
+std::string reason(const mu::ParserError& error) {
   const std::string& token = error.GetToken();
   switch (error.GetCode()) {
-    case mu::ecUNASSIGNABLE_TOKEN: {
-      std::vector<std::string> known = names;
-      for (const auto& function : parser.GetFunDef()) known.push_back(function.first);
-      const auto near = nearest(token, known);
-      return fmt::format(
-          "has the unknown name '{}'; {}", token,
-          near ? fmt::format("did you mean '{}'?", *near) : fmt::format("known are {} and functions such as sin", join(names)));
-    }
     case mu::ecUNEXPECTED_EOF:
       return "ends too early; complete it";
     case mu::ecTOO_FEW_PARAMS:
@@ -101,16 +112,14 @@ Expression::Expression(const std::string& text, const std::vector<std::string>& 
   std::vector<std::string> names = variables;
   names.emplace_back("pi");
   for (const auto& constant : constants) names.push_back(constant.first);
+  if (const std::string mistake = unknown_name(text, c.parser, names); !mistake.empty()) throw InputError(sentence(text, mistake));
   try {
     c.parser.SetExpr(text);
     const auto used = c.parser.GetUsedVar();
     for (std::size_t i = 0; i < variables.size(); ++i) c.used[i] = used.count(variables[i]) != 0;
-    for (const auto& name : used)
-      if (std::find(variables.begin(), variables.end(), name.first) == variables.end())
-        throw mu::ParserError(mu::ecUNASSIGNABLE_TOKEN, name.first, text);
     c.parser.Eval();
   } catch (const mu::ParserError& error) {
-    throw InputError(sentence(text, reason(error, c.parser, names)));
+    throw InputError(sentence(text, reason(error)));
   }
   if (c.parser.GetNumResults() != 1) throw InputError(sentence(text, "has a ',' outside of a function; write a decimal point as '.'"));
 }
