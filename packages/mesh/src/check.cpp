@@ -176,6 +176,12 @@ void check_parents(const Mesh& coarse, const Mesh& fine, Findings& findings) {
     if (children[K] == 0) return false;  // a cell of a level held whole, far from this rank
     return children[K] != 4 || !(std::abs(rest[K]) <= 1e-12 * cell_area(above.parameter, above.cell_vertices, K));
   });
+  std::vector<bool> owned(coarse.vertices);
+  for (LocalIndex v = 0; v < coarse.vertices; ++v) owned[v] = coarse.vertex_owner[v] == coarse.comm.rank();
+  findings.count("cells around owned vertices that lack children", coarse.cells, [&](LocalIndex K) {
+    const auto vertices = Kokkos::subview(above.cell_vertices, K, Kokkos::ALL);
+    return (owned[vertices(0)] || owned[vertices(1)] || owned[vertices(2)]) && children[K] != 4;
+  });
   findings.count("vertices that are not the midpoint of their parents", fine.vertices, [&](LocalIndex v) {
     const auto [a, b] = fine.vertex_parents[v];
     if (!inside(a, coarse.vertices) || !inside(b, coarse.vertices)) return true;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 #include "patches.hpp"
 #include "thixis/mesh/host.hpp"
@@ -75,7 +76,8 @@ Mesh extract(const Mesh& whole, const std::vector<LocalIndex>& kept, LocalIndex 
   vertices.finish();
   faces.finish();
 
-  Mesh part{whole.comm};
+  Mesh part;
+  part.comm = whole.comm;
   part.global_cells = whole.global_cells;
   part.global_vertices = whole.global_vertices;
   part.global_faces = whole.global_faces;
@@ -118,6 +120,20 @@ Mesh extract(const Mesh& whole, const std::vector<LocalIndex>& kept, LocalIndex 
   return part;
 }
 
+/// Those of `candidates` whose parents share a vertex with the parent of one of `cells`: the patch of a coarse vertex has all its children
+/// on the rank that owns the vertex.
+std::vector<LocalIndex> near_parents(const Mesh& coarse, const Mesh& fine, const std::vector<LocalIndex>& cells,
+                                     const std::vector<LocalIndex>& candidates) {
+  std::vector<LocalIndex> all(coarse.cells);
+  std::iota(all.begin(), all.end(), 0);
+  std::vector<bool> near(coarse.cells, false);
+  for (const LocalIndex parent : cells_touching(coarse, selected(fine.cell_parent, cells), all)) near[parent] = true;
+  std::vector<LocalIndex> found;
+  for (const LocalIndex K : candidates)
+    if (near[fine.cell_parent[K]]) found.push_back(K);
+  return found;
+}
+
 }  // namespace
 
 void distribute(Hierarchy& hierarchy) {
@@ -132,18 +148,19 @@ void distribute(Hierarchy& hierarchy) {
   }
 
   std::vector<LocalIndex> parent_number;  // of the cells of the next coarser level, by their old number
+  const Mesh* coarse = nullptr;
   for (Mesh& level : hierarchy.levels) {
     std::vector<LocalIndex> kept, others;
     for (LocalIndex K = 0; K < level.cells; ++K) (level.cell_owner[K] == level.comm.rank() ? kept : others).push_back(K);
     const auto owned = static_cast<LocalIndex>(kept.size());
-    if (&level == &finest) others = cells_touching(level, kept, others);
-    kept.insert(kept.end(), others.begin(), others.end());
 
-    Mesh part = extract(level, kept, owned);
-    for (LocalIndex& parent : part.cell_parent) parent = parent_number[parent];
+    for (LocalIndex& parent : level.cell_parent) parent = parent_number[parent];
+    if (&level == &finest) others = coarse ? near_parents(*coarse, level, kept, others) : cells_touching(level, kept, others);
+    kept.insert(kept.end(), others.begin(), others.end());
     parent_number.assign(level.cells, -1);
     for (std::size_t k = 0; k < kept.size(); ++k) parent_number[kept[k]] = static_cast<LocalIndex>(k);
-    level = std::move(part);
+    level = extract(level, kept, owned);
+    coarse = &level;
   }
 }
 

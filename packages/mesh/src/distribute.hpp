@@ -9,7 +9,7 @@ namespace thixis::mesh {
 std::vector<int> partition(const Mesh& whole);
 
 /// Partitions the finest of levels that every rank holds whole, with equal local and global numbers: it is cut down to the owned cells
-/// and those that share a vertex with them. The coarser levels stay whole; there the owner of a cell is that of its first child.
+/// and the ghosts that Mesh promises. The coarser levels stay whole; there the owner of a cell is that of its first child.
 /// The owner of vertices and faces is the lowest rank among those of the cells around them.
 void distribute(Hierarchy& hierarchy);
 

@@ -129,7 +129,8 @@ void launch(const std::string& name, LocalIndex size, const Kernel& kernel) {
 }  // namespace
 
 Mesh refine(const Mesh& coarse) {
-  Mesh fine{coarse.comm};
+  Mesh fine;
+  fine.comm = coarse.comm;
   fine.global_cells = 4 * coarse.global_cells;
   fine.global_vertices = coarse.global_vertices + coarse.global_faces;
   fine.global_faces = 2 * coarse.global_faces + 3 * coarse.global_cells;

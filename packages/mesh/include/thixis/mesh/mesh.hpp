@@ -26,10 +26,13 @@ enum class Chart {
 
 /// One level of a triangle mesh as one rank sees it: its own cells, then the ghost cells.
 ///
-/// On the level that is partitioned the ghosts are all cells that share a vertex with an owned cell; finer levels hold the
-/// descendants of owned and ghost cells, coarser levels are held whole by every rank. Cells 0..owned_cells-1 are owned; vertices
-/// and faces have an owner that every rank knows without communication. `*_id` are global identities that do not depend
-/// on the number of ranks: contiguous 0..global_*-1, vertex ids of a level go on in the next one.
+/// Levels coarser than the one that is partitioned are held whole by every rank. On that level the ghosts are all cells that share a vertex
+/// with an owned cell, and more where there is a coarser level: the children of all cells that share a vertex with the parent of an
+/// owned cell. Finer levels hold the descendants of owned and ghost cells. Hence on every level every vertex of an owned cell and every
+/// owned vertex has all its cells on this rank, and the cells around an owned vertex have all their children there. Cells
+/// 0..owned_cells-1 are owned; vertices and faces have an owner that every rank knows without communication: one of those of the cells
+/// around. `*_id` are global identities that do not depend on the number of ranks: contiguous 0..global_*-1, vertex ids of a level go on in
+/// the next one.
 ///
 /// Local numbering of a cell: vertices counter-clockwise, face i opposite vertex i. A face goes from its vertex of lower id to the
 /// one of higher id; its normal is the tangent turned by -90 degrees.

@@ -1,0 +1,90 @@
+#include <gtest/gtest.h>
+
+#include "meshes.hpp"
+#include "thixis/core/error.hpp"
+#include "thixis/mesh/statistics.hpp"
+
+namespace thixis::mesh {
+namespace {
+
+/// The sentence with which build refuses the parameters.
+std::string refusal(const MeshParams& params) {
+  try {
+    build(params, core::Comm(), ".");
+  } catch (const core::InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST(rectangle, takes_whole_multiples_only_and_says_what_to_write) {
+  MeshParams params;
+  params.cells_per_side = 2;
+  params.upper = {1, 1.7};
+  EXPECT_EQ(
+      refusal(params),
+      "mesh/cells per side: 2 squares along the shorter side are 3.4 along the longer one; write another number, or corners such that "
+      "the longer side is a whole multiple of 0.5.");
+  params.cells_per_side = 10;
+  const Hierarchy hierarchy = build(params, core::Comm(), ".");
+  EXPECT_EQ(hierarchy.finest().global_cells, 4 * 10 * 17);
+  EXPECT_NEAR(statistics(hierarchy.finest()).h_max, 0.1, 1e-14);
+}
+
+TEST(rectangle, may_lie_either_way) {
+  MeshParams params;
+  params.generator = Generator::rectangle;
+  params.cells_per_side = 2;
+  params.lower = {-3, 1};
+  params.upper = {3, 3};
+  EXPECT_EQ(build(params, core::Comm(), ".").finest().global_cells, 2 * 2 * 6);
+  params.lower = {1, -3};
+  params.upper = {3, 3};
+  const Mesh mesh = build(params, core::Comm(), ".").finest();
+  EXPECT_EQ(mesh.global_cells, 2 * 2 * 6);
+  EXPECT_NEAR(statistics(mesh).area, 12, 1e-13);
+}
+
+TEST(rectangle, needs_its_upper_corner_above_the_lower_one) {
+  MeshParams params;
+  for (const auto& upper : {std::vector<double>{1, 0}, {-1, 1}, {1, NAN}, {INFINITY, 1}}) {
+    params.upper = upper;
+    EXPECT_EQ(refusal(params), "mesh/upper: write finite coordinates, each larger than that of 'lower'.");
+  }
+  params.upper = {1, 1, 1};
+  EXPECT_EQ(refusal(params), "mesh/upper: write two coordinates, such as {1, 1}.");
+}
+
+TEST(parameters, of_meshes_too_large_to_hold_are_refused) {
+  MeshParams params;
+  params.cells_per_side = 100000;
+  EXPECT_EQ(refusal(params), "mesh/cells per side: every rank holds the coarsest mesh; write fewer cells per side and more refinements.");
+  params.generator = Generator::disk;
+  params.rings = 100000;
+  EXPECT_EQ(refusal(params), "mesh/rings: every rank holds the coarsest mesh; write fewer rings and more refinements.");
+  params.rings = 1;
+  params.refinements = 20;
+  EXPECT_EQ(refusal(params), "mesh/refinements: a rank would hold more than 500 million cells; write fewer refinements or use more ranks.");
+}
+
+TEST(parameters, out_of_range_are_refused) {
+  MeshParams params;
+  params.cells_per_side = 0;
+  EXPECT_EQ(refusal(params), "mesh/cells per side: write a number from 1.");
+  params.cells_per_side = 1;
+  params.refinements = -1;
+  EXPECT_EQ(refusal(params), "mesh/refinements: write a number from 0.");
+}
+
+TEST(parameters, with_a_file_need_the_generator_file_and_the_other_way_round) {
+  MeshParams params;
+  params.file = "plate.msh";
+  EXPECT_EQ(refusal(params), "mesh/file: only the generator 'file' reads a mesh; write that, or leave out the file.");
+  params.file = "";
+  params.generator = Generator::file;
+  EXPECT_EQ(refusal(params), "mesh/file: write the name of a Gmsh mesh, or choose another generator.");
+}
+
+}  // namespace thixis::mesh
