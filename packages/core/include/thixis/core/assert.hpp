@@ -45,14 +45,13 @@ std::string message_of(fmt::format_string<A...> format, A&&... a) {
   do {                                                                                                                                   \
     if (!(condition)) ::thixis::core::assertion_failed(__FILE__, __LINE__, #condition, ::thixis::core::detail::message_of(__VA_ARGS__)); \
   } while (false)
-#define THIXIS_ASSERT_COMPARISON(a, op, b, ...)                                                                 \
-  do {                                                                                                          \
-    const auto& thixis_a = (a);                                                                                 \
-    const auto& thixis_b = (b);                                                                                 \
-    if (!(thixis_a op thixis_b))                                                                                \
-      ::thixis::core::assertion_failed(                                                                         \
-          __FILE__, __LINE__, #a " " #op " " #b,                                                                \
-          fmt::format("{} against {} ", thixis_a, thixis_b) + ::thixis::core::detail::message_of(__VA_ARGS__)); \
+#define THIXIS_ASSERT_COMPARISON(a, op, b, ...)                                                                                           \
+  do {                                                                                                                                    \
+    const auto& thixis_a = (a);                                                                                                           \
+    const auto& thixis_b = (b);                                                                                                           \
+    if (!(thixis_a op thixis_b))                                                                                                          \
+      ::thixis::core::assertion_failed(__FILE__, __LINE__, #a " " #op " " #b,                                                             \
+                                       fmt::format("{} and {}; ", thixis_a, thixis_b) + ::thixis::core::detail::message_of(__VA_ARGS__)); \
   } while (false)
 #else
 #define THIXIS_ASSERT(condition, ...) static_cast<void>(0)
