@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <regex>
 
 #include "thixis/core/assert.hpp"
 #include "thixis/core/error.hpp"
@@ -41,13 +40,34 @@ std::string mistake_of_form(const std::string& text) {
   return "";
 }
 
+/// The names in the text; numbers such as 1e-3 are skipped as a whole.
+std::vector<std::string> names_in(const std::string& text) {
+  const auto is_digit = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0 || c == '.'; };
+  const auto is_letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_'; };
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < text.size();) {
+    std::size_t end = i;
+    if (is_digit(text[i])) {
+      while (end < text.size() && is_digit(text[end])) ++end;
+      std::size_t exponent = end + 1;
+      if (exponent < text.size() && (text[exponent] == '+' || text[exponent] == '-')) ++exponent;
+      if (exponent < text.size() && (text[end] == 'e' || text[end] == 'E') && is_digit(text[exponent])) end = exponent;
+      while (end < text.size() && is_digit(text[end])) ++end;
+    } else if (is_letter(text[i])) {
+      while (end < text.size() && (is_letter(text[end]) || (is_digit(text[end]) && text[end] != '.'))) ++end;
+      names.push_back(text.substr(i, end - i));
+    } else {
+      ++end;
+    }
+    i = end;
+  }
+  return names;
+}
+
 /// The first name in the text that means nothing, with the nearest known one. The parser would stumble over what follows the name.
 std::string unknown_name(const std::string& text, const mu::Parser& parser, const std::vector<std::string>& names) {
-  static const std::regex word("[0-9.]+([eE][+-]?[0-9]+)?|[A-Za-z_][A-Za-z_0-9]*");
-  for (auto at = std::sregex_iterator(text.begin(), text.end(), word); at != std::sregex_iterator(); ++at) {
-    const std::string name = at->str();
-    const bool number = std::isdigit(static_cast<unsigned char>(name[0])) != 0 || name[0] == '.';
-    if (number || std::find(names.begin(), names.end(), name) != names.end() || parser.GetFunDef().count(name) != 0) continue;
+  for (const auto& name : names_in(text)) {
+    if (std::find(names.begin(), names.end(), name) != names.end() || parser.GetFunDef().count(name) != 0) continue;
     std::vector<std::string> known = names;
     for (const auto& function : parser.GetFunDef()) known.push_back(function.first);
     const auto near = nearest(name, known);

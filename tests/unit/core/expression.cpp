@@ -22,7 +22,7 @@ TEST(Expression, follows_the_rules_of_arithmetic) {
   EXPECT_EQ(value("-x^2", 3), -9);
   EXPECT_EQ(value("2^3^2"), 512);
   EXPECT_EQ(value("7/2"), 3.5);
-  EXPECT_EQ(value("1e-3*x", 2), 2e-3);
+  EXPECT_EQ(value("1e-3*x + 1.5E+2", 2), 150.002);
   EXPECT_DOUBLE_EQ(value("sin(pi/6)"), 0.5);
   EXPECT_DOUBLE_EQ(value("log(exp(2))"), 2);
   EXPECT_EQ(value("max(x, y) - min(x, y)", 1, 4), 3);
