@@ -9,7 +9,8 @@ namespace thixis::algebra {
 
 namespace {
 
-constexpr double acceptable_relative_residual = 1e-8;
+/// Of |A| |x|: what rounding in A x alone can amount to, with some room for the growth of the factors.
+constexpr double rounding = 1e-13;
 
 class Direct : public Method {
  public:
@@ -25,7 +26,7 @@ class Direct : public Method {
     report.iterations = 1;
     report.residual = residual(*A_, b, x, r);
     if (!(report.residual <= stop.tolerance)) refine(b, x, r, report);
-    report.converged = report.residual <= std::max(stop.tolerance, acceptable_relative_residual * norm2(b));
+    report.converged = report.residual <= std::max(stop.tolerance, rounding * A_->getFrobeniusNorm() * norm2(x));
     if (!report.converged) report.reason = fmt::format("the residual of the LU factorization is {:.3g}", report.residual);
     return report;
   }

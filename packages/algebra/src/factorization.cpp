@@ -62,7 +62,10 @@ void Factorization::Impl::gather_graph(const Teuchos::RCP<const Matrix>& A) {
   const core::Comm comm = comm_of(*A->getRowMap());
   gathered_map = map_of(comm.gather_on_root(ids_of(*A->getRowMap())), comm);
   import = Teuchos::rcp(new Import(A->getRowMap(), gathered_map));
-  gathered = Tpetra::importAndFillCompleteCrsMatrix<Matrix>(A, *import, gathered_map, gathered_map);
+  // Not importAndFillCompleteCrsGraph: it crashes for a diagonal matrix on several ranks. New values need a matrix with a const graph.
+  const auto copy = Tpetra::importAndFillCompleteCrsMatrix<Matrix>(A, *import, gathered_map, gathered_map);
+  gathered = Teuchos::rcp(new Matrix(copy->getCrsGraph()));
+  gathered->fillComplete(gathered_map, gathered_map);
   graph = A->getCrsGraph();
 }
 
@@ -126,8 +129,8 @@ double Factorization::Impl::error_of_known_solution() const {
 
 void Factorization::set_matrix(const Teuchos::RCP<const Matrix>& A) {
   Impl& f = *impl_;
-  if (f.graph.get() == A->getCrsGraph().get()) f.gather_values(*A);
-  else f.gather_graph(A);
+  if (f.graph.get() != A->getCrsGraph().get()) f.gather_graph(A);
+  f.gather_values(*A);
 
   const core::Comm comm = comm_of(*A->getRowMap());
   int regular = 1;

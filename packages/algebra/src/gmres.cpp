@@ -24,7 +24,10 @@ class Gmres : public Method {
   Gmres(int restart, int max_iterations) : restart_(restart), max_iterations_(max_iterations) {}
 
   void set_matrix(const Teuchos::RCP<const Matrix>& A, const Teuchos::RCP<const Operator>& inverse) override {
-    if (A_.is_null() || !A->getRowMap()->isSameAs(*A_->getRowMap())) iteration_.reset();
+    if (A_.is_null() || !A->getRowMap()->isSameAs(*A_->getRowMap())) {
+      iteration_.reset();
+      problem_ = Teuchos::rcp(new Problem);
+    }
     A_ = A;
     problem_->setOperator(A);
     problem_->setRightPrec(inverse);
@@ -100,7 +103,7 @@ class Gmres : public Method {
   int restart_;
   int max_iterations_;
   Teuchos::RCP<const Matrix> A_;
-  Teuchos::RCP<Problem> problem_ = Teuchos::rcp(new Problem);
+  Teuchos::RCP<Problem> problem_;  ///< keeps vectors, like iteration_, from one solve to the next
   Teuchos::RCP<Watch> watch_ = Teuchos::rcp(new Watch);
   Teuchos::RCP<Belos::OutputManager<double>> output_ = Teuchos::rcp(new Belos::OutputManager<double>(Belos::Errors));
   Teuchos::RCP<Belos::MatOrthoManager<double, MultiVector, Operator>> orthogonalization_ =

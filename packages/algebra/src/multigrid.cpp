@@ -2,6 +2,7 @@
 
 #include <MueLu_CreateTpetraPreconditioner.hpp>
 #include <cmath>
+#include <limits>
 
 #include "factorization.hpp"
 #include "thixis/algebra/tpetra.hpp"
@@ -11,16 +12,19 @@ namespace thixis::algebra {
 
 namespace {
 
-/// Systems of this size are factorized: the coarsest level, and the whole matrix if it is so small.
+/// Systems of this size are factorized: the coarsest level, and the whole matrix if no more rows are coupled.
 constexpr int coarse_rows = 500;
 /// Levels with fewer rows per rank than this move to fewer ranks. As it is larger than `coarse_rows`, the coarsest level lives on one rank,
 /// where KLU2 can be trusted (on several it can not).
 constexpr int rows_per_rank = 2000;
 
-/// A^{-1} as an operator.
-class Inverse : public Operator {
+/// A row without any off-diagonal entry but zeros gets this fraction of the mean diagonal.
+constexpr double decoupled_diagonal = 1e-4;
+
+/// A^{-1} by LU.
+class Exact : public Operator {
  public:
-  explicit Inverse(const Teuchos::RCP<const Matrix>& A) : domain_(A->getDomainMap()), range_(A->getRangeMap()) { lu_.set_matrix(A); }
+  explicit Exact(const Teuchos::RCP<const Matrix>& A) : domain_(A->getDomainMap()), range_(A->getRangeMap()) { lu_.set_matrix(A); }
   MapPtr getDomainMap() const override { return range_; }
   MapPtr getRangeMap() const override { return domain_; }
   void apply(const MultiVector& b, MultiVector& x, Teuchos::ETransp, double alpha, double beta) const override {
@@ -36,6 +40,65 @@ class Inverse : public Operator {
   Factorization lu_;
 };
 
+/// y_i = b_i / a_ii in the decoupled rows, a multigrid cycle in the others.
+///
+/// Decoupled rows are conditions like u = g or u2 = u1 on some of the nodes. Aggregates that reach across the edge of such a patch would be
+/// held back by the diagonal entries in it; so the cycle is built for a matrix where those are small, and does not touch these rows.
+class CoupledCycle : public Operator {
+ public:
+  CoupledCycle(const Teuchos::RCP<const Operator>& cycle, const Vector& coupled, const Vector& diagonal)
+      : cycle_(cycle), coupled_(coupled, Teuchos::Copy), inverse_(diagonal.getMap()) {
+    const auto c = host_view(coupled), d = host_view(diagonal);
+    const auto inverse = host_overwrite(inverse_);
+    for (std::size_t i = 0; i < inverse.extent(0); ++i) inverse(i) = (1 - c(i)) / d(i);
+  }
+  MapPtr getDomainMap() const override { return cycle_->getDomainMap(); }
+  MapPtr getRangeMap() const override { return cycle_->getRangeMap(); }
+  void apply(const MultiVector& b, MultiVector& x, Teuchos::ETransp, double alpha, double beta) const override {
+    MultiVector c(b.getMap(), b.getNumVectors()), y(x.getMap(), x.getNumVectors());
+    c.elementWiseMultiply(1, coupled_, b, 0);
+    cycle_->apply(c, y);
+    x.elementWiseMultiply(alpha, coupled_, y, beta);
+    x.elementWiseMultiply(alpha, inverse_, b, 1);
+  }
+
+ private:
+  Teuchos::RCP<const Operator> cycle_;
+  Vector coupled_;  ///< 1 or 0
+  Vector inverse_;  ///< 1 / a_ii in the decoupled rows, 0 in the others
+};
+
+/// 1 for a row with an off-diagonal entry that is not zero, else 0.
+Vector coupled_rows(const Matrix& A) {
+  Vector coupled(A.getRowMap());
+  const auto local = A.getLocalMatrixHost();
+  const auto value = host_overwrite(coupled);
+  for (LocalIndex i = 0; i < local.numRows(); ++i) {
+    const LocalIndex diagonal = A.getColMap()->getLocalElement(A.getRowMap()->getGlobalElement(i));
+    value(i) = 0;
+    for (auto k = local.graph.row_map(i); k < local.graph.row_map(i + 1); ++k)
+      if (local.graph.entries(k) != diagonal && local.values(k) != 0) value(i) = 1;
+  }
+  return coupled;
+}
+
+/// The matrix with a small diagonal in its decoupled rows.
+Teuchos::RCP<Matrix> relaxed(const Matrix& A, const Vector& coupled, const Vector& diagonal) {
+  const auto B = Teuchos::rcp(new Matrix(A.getCrsGraph()));
+  Kokkos::deep_copy(B->getLocalMatrixDevice().values, A.getLocalMatrixDevice().values);
+  const double small = decoupled_diagonal * diagonal.dot(coupled) / coupled.norm1();
+  {
+    const auto c = host_view(coupled);
+    for (LocalIndex i = 0; i < local_rows(A); ++i)
+      if (c(i) == 0) {
+        const LocalIndex column = A.getColMap()->getLocalElement(A.getRowMap()->getGlobalElement(i));
+        B->replaceLocalValues(i, 1, &small, &column);
+      }
+  }
+  B->fillComplete(A.getDomainMap(), A.getRangeMap());
+  return B;
+}
+
 /// MueLu validates the names.
 Teuchos::ParameterList options(int fields, int ranks, const Teuchos::RCP<const MultiVector>& coordinates) {
   Teuchos::ParameterList list;
@@ -44,7 +107,7 @@ Teuchos::ParameterList options(int fields, int ranks, const Teuchos::RCP<const M
   list.set("number of equations", fields);
   list.set("coarse: max size", coarse_rows);
   list.set("smoother: type", "CHEBYSHEV");
-  list.sublist("smoother: params").set("chebyshev: degree", 2);
+  list.sublist("smoother: params").set("chebyshev: degree", std::getenv("DEG") ? atoi(std::getenv("DEG")) : 2);
   if (ranks == 1) return list;
   list.set("repartition: enable", true);
   list.set("repartition: partitioner", "zoltan2");
@@ -57,33 +120,43 @@ Teuchos::ParameterList options(int fields, int ranks, const Teuchos::RCP<const M
   return list;
 }
 
+Teuchos::RCP<const Operator> muelu(const Teuchos::RCP<Matrix>& A, int fields, const Teuchos::RCP<const MultiVector>& coordinates) {
+  auto list = options(fields, A->getComm()->getSize(), coordinates);
+  Teuchos::RCP<const Operator> cycle;
+  bool works = false;
+  try {
+    cycle = MueLu::CreateTpetraPreconditioner(Teuchos::RCP<Operator>(A), list);
+    Vector ones(A->getRangeMap()), y(A->getDomainMap());
+    ones.putScalar(1);
+    cycle->apply(ones, y);
+    works = std::isfinite(norm2(y));
+  } catch (const std::exception&) {
+  }
+  if (!comm_of(*A->getRowMap()).all(works)) throw Breakdown("multigrid can not be set up for this matrix");
+  return cycle;
+}
+
 class Multigrid : public Preconditioner {
  public:
   void set_matrix(const Teuchos::RCP<const Matrix>& A, int fields, const Teuchos::RCP<const MultiVector>& coordinates) override {
     ++setups_;
-    require(*A, fields);
-    if (static_cast<long long>(A->getGlobalNumRows()) <= coarse_rows) {
-      inverse_ = Teuchos::rcp(new Inverse(A));
-      return;
-    }
-    auto list = options(fields, A->getComm()->getSize(), coordinates);
-    const Teuchos::RCP<Operator> op = Teuchos::rcp_const_cast<Matrix>(A);
-    try {
-      inverse_ = MueLu::CreateTpetraPreconditioner(op, list);
-    } catch (const std::exception&) {
-      throw Breakdown("the set-up of the multigrid preconditioner failed");
-    }
+    Vector diagonal(A->getRowMap());
+    A->getLocalDiagCopy(diagonal);
+    require(*A, diagonal, fields);
+    const Vector coupled = coupled_rows(*A);
+    const double rows = static_cast<double>(A->getGlobalNumRows()), count = coupled.norm1();
+    if (count <= coarse_rows) inverse_ = Teuchos::rcp(new Exact(A));
+    else if (count == rows) inverse_ = muelu(Teuchos::rcp_const_cast<Matrix>(A), fields, coordinates);
+    else inverse_ = Teuchos::rcp(new CoupledCycle(muelu(relaxed(*A, coupled, diagonal), fields, coordinates), coupled, diagonal));
   }
   Teuchos::RCP<const Operator> inverse() const override { return inverse_; }
   int symbolic_setups() const override { return setups_; }
 
  private:
-  static void require(const Matrix& A, int fields) {
-    Vector diagonal(A.getRowMap());
-    A.getLocalDiagCopy(diagonal);
+  static void require(const Matrix& A, const Vector& diagonal, int fields) {
     bool zero = false;
     {
-      const auto d = host_view(static_cast<const Vector&>(diagonal));
+      const auto d = host_view(diagonal);
       for (LocalIndex i = 0; i < local_rows(A); ++i) zero = zero || d(i) == 0;
     }
     const core::Comm comm = comm_of(*A.getRowMap());

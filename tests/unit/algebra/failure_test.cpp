@@ -20,8 +20,8 @@ LinearParams params(SolverKind solver, PreconditionerKind preconditioner = Preco
 }
 
 /// Starts from ones.
-struct Run {
-  Run(const LinearParams& p, const Row& row, GlobalIndex nodes, int fields = 1, double value_of_b = 1)
+struct Case {
+  Case(const LinearParams& p, const Row& row, GlobalIndex nodes, int fields = 1, double value_of_b = 1)
       : A(matrix(node_map(nodes, fields), row)), b(A->getRowMap()), x(A->getDomainMap()) {
     b.putScalar(value_of_b);
     x.putScalar(1);
@@ -55,26 +55,26 @@ class Failure : public ::testing::TestWithParam<LinearParams> {};
 
 TEST_P(Failure, of_a_matrix_with_nan_or_infinity_is_reported_and_leaves_x_alone) {
   for (const double bad : {nan, infinity}) {
-    const Run run(GetParam(), with_entry(poisson(12), 100, bad), 144);
+    const Case run(GetParam(), with_entry(poisson(12), 100, bad), 144);
     EXPECT_FALSE(run.report.converged);
     EXPECT_EQ(run.report.reason, "the matrix holds NaN or infinity");
     EXPECT_DOUBLE_EQ(norm2(run.x), 12);
   }
 }
 TEST_P(Failure, of_a_right_hand_side_with_nan_is_reported_and_leaves_x_alone) {
-  const Run run(GetParam(), poisson(12), 144, 1, nan);
+  const Case run(GetParam(), poisson(12), 144, 1, nan);
   EXPECT_FALSE(run.report.converged);
   EXPECT_EQ(run.report.reason, "the right-hand side holds NaN or infinity");
   EXPECT_DOUBLE_EQ(norm2(run.x), 12);
 }
 TEST_P(Failure, of_a_singular_matrix_is_reported_without_nan) {
-  const Run run(GetParam(), neumann(12), 144);
+  const Case run(GetParam(), neumann(12), 144);
   EXPECT_FALSE(run.report.converged);
   EXPECT_FALSE(run.report.reason.empty());
   EXPECT_TRUE(std::isfinite(norm2(run.x)));
 }
 TEST_P(Failure, of_a_matrix_of_zeros_is_reported_without_nan) {
-  const Run run(GetParam(), scaled(poisson(12), 0), 144);
+  const Case run(GetParam(), scaled(poisson(12), 0), 144);
   EXPECT_FALSE(run.report.converged);
   EXPECT_FALSE(run.report.reason.empty());
   EXPECT_DOUBLE_EQ(norm2(run.x), 12);
@@ -98,13 +98,13 @@ INSTANTIATE_TEST_SUITE_P(all, Failure,
                                            params(SolverKind::cg), params(SolverKind::cg, K::ilu), params(SolverKind::direct)));
 
 TEST(DirectSolver, notices_a_singular_matrix_even_if_the_system_has_solutions) {
-  const Run run(params(SolverKind::direct), neumann(12), 144, 1, 0);
+  const Case run(params(SolverKind::direct), neumann(12), 144, 1, 0);
   EXPECT_FALSE(run.report.converged);
   EXPECT_EQ(run.report.reason, "the matrix is singular");
 }
 TEST(DirectSolver, takes_badly_scaled_rows_for_what_they_are) {
   const Row laplace = poisson(12);
-  const Run run(
+  const Case run(
       params(SolverKind::direct),
       [&](GlobalIndex i, auto& columns, auto& values) {
         laplace(i, columns, values);
@@ -115,12 +115,12 @@ TEST(DirectSolver, takes_badly_scaled_rows_for_what_they_are) {
 }
 
 TEST(Cg, refuses_a_matrix_that_is_not_positive_definite) {
-  const Run run(params(SolverKind::cg), scaled(poisson(12), -1), 144);
+  const Case run(params(SolverKind::cg), scaled(poisson(12), -1), 144);
   EXPECT_FALSE(run.report.converged);
   EXPECT_EQ(run.report.reason, "the matrix is not positive definite, so cg can not solve the system");
 }
 TEST(Cg, is_not_deceived_by_two_wrong_signs) {
-  const Run run(params(SolverKind::cg, K::ilu), scaled(poisson(12), -1), 144);
+  const Case run(params(SolverKind::cg, K::ilu), scaled(poisson(12), -1), 144);
   EXPECT_FALSE(run.report.converged);
   EXPECT_EQ(run.report.reason, "the preconditioner is not positive definite, so cg can not use it");
 }
@@ -128,7 +128,7 @@ TEST(Cg, wants_a_symmetric_preconditioner) { EXPECT_THROW(Solver(params(SolverKi
 
 TEST(Ilu, reports_a_zero_pivot) {
   // The unknown with the zero diagonal comes first.
-  const Run run(
+  const Case run(
       params(SolverKind::gmres, K::ilu),
       [](GlobalIndex i, auto& columns, auto& values) {
         columns = {i - i % 2, i - i % 2 + 1};
