@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "tpetra.hpp"
+#include "views.hpp"
 
 namespace thixis::complementarity {
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "thixis/complementarity/active_set.hpp"
-#include "tpetra.hpp"
+#include "views.hpp"
 
 namespace thixis::complementarity {
 namespace {

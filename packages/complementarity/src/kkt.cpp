@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "tpetra.hpp"
+#include "views.hpp"
 
 namespace thixis::complementarity {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 #include <NOX_Abstract_Vector.H>
 
-#include "tpetra.hpp"
+#include "views.hpp"
 
 namespace thixis::complementarity {
 

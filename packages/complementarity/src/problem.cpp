@@ -1,6 +1,6 @@
 #include "thixis/complementarity/problem.hpp"
 
-#include "tpetra.hpp"
+#include "views.hpp"
 
 namespace thixis::complementarity {
 

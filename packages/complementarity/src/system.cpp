@@ -79,10 +79,10 @@ void System::solve(const algebra::Vector& X, const algebra::Vector& R, algebra::
   linear_iterations_ += report.iterations;
   solved_ = report.converged && !report.by_criterion;
   left_ = std::max(stop.tolerance, report.residual);
-  judge(report, residual, dX.norm2());
+  judge(report, stop.tolerance, residual, dX.norm2());
 }
 
-void System::judge(const algebra::LinearReport& report, double residual, double correction) {
+void System::judge(const algebra::LinearReport& report, double tolerance, double residual, double correction) {
   if (!std::isfinite(correction) || !std::isfinite(report.residual))
     throw StepFailed{"the linear solver returned numbers that are not finite"};
   if (report.converged) {
@@ -90,8 +90,8 @@ void System::judge(const algebra::LinearReport& report, double residual, double 
     return;
   }
   ++failures_;
-  const std::string what =
-      fmt::format("the linear solver left a residual of {:.2e}{}{}", report.residual, report.reason.empty() ? "" : ": ", report.reason);
+  const std::string what = fmt::format("the linear solver left a residual of {:.2e}, not {:.2e}{}{}", report.residual, tolerance,
+                                       report.reason.empty() ? "" : ": ", report.reason);
   if (failures_ > 1) throw StepFailed{what + ", for the second time"};
   if (report.residual > 0.5 * residual) throw StepFailed{what};
   say(fmt::format("Newton step {}: {}; the step is taken and the next system is the second try.", step_, what));

@@ -2,7 +2,7 @@
 #include <string>
 
 #include "thixis/complementarity/newton.hpp"
-#include "tpetra.hpp"
+#include "views.hpp"
 
 namespace thixis::complementarity {
 
@@ -48,7 +48,7 @@ class System {
  private:
   double linear_tolerance(double rhs, double residual) const;
   bool look(const algebra::Vector& X, const algebra::Vector& dX, int iteration, double residual, double rhs);
-  void judge(const algebra::LinearReport& report, double residual, double correction);
+  void judge(const algebra::LinearReport& report, double tolerance, double residual, double correction);
 
   Problem& problem_;
   const NewtonParams& newton_;

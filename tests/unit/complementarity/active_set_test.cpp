@@ -5,7 +5,7 @@
 #include <Tpetra_Core.hpp>
 #include <functional>
 
-#include "tpetra.hpp"
+#include "views.hpp"
 
 namespace thixis::complementarity {
 namespace {
@@ -16,8 +16,7 @@ constexpr int points = 100;
 ActiveSet set_of(const std::function<double(int)>& difference, Ties ties = Ties::contact, double tolerance = 0) {
   const auto map = Teuchos::rcp(new algebra::Map(points, 0, Tpetra::getDefaultComm()));
   algebra::Vector K(map), G(map), s(map);
-  for (std::size_t l = 0; l < map->getNodeNumElements(); ++l)
-    K.replaceLocalValue(l, difference(static_cast<int>(map->getGlobalElement(l))));
+  for (int l = 0; l < algebra::local_size(*map); ++l) K.replaceLocalValue(l, difference(static_cast<int>(map->getGlobalElement(l))));
   s.putScalar(1);
   return ActiveSet(K, G, s, ties, tolerance);
 }

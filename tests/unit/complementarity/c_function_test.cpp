@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "thixis/complementarity/active_set.hpp"
-#include "tpetra.hpp"
+#include "views.hpp"
 
 namespace thixis::complementarity {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "tpetra.hpp"
+#include "views.hpp"
 
 namespace thixis::complementarity::test {
 namespace {
@@ -51,7 +51,7 @@ Values eliminate(Values A, Values b) {
 DenseProblem::DenseProblem(DenseData data) : data_(std::move(data)) {
   const auto comm = Tpetra::getDefaultComm();
   points_ = Teuchos::rcp(new algebra::Map(data_.n, 0, comm));
-  own_ = static_cast<int>(points_->getNodeNumElements());
+  own_ = algebra::local_size(*points_);
   first_ = own_ > 0 ? static_cast<int>(points_->getMinGlobalIndex()) : 0;
   map_ = Teuchos::rcp(new algebra::Map(data_.fields() * data_.n, data_.fields() * own_, 0, comm));
 }

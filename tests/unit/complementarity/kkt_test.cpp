@@ -9,6 +9,7 @@
 
 #include "dense_problem.hpp"
 #include "thixis/core/error.hpp"
+#include "views.hpp"
 
 namespace thixis::complementarity::test {
 namespace {
@@ -31,8 +32,7 @@ struct Solution {
     const auto map = Teuchos::rcp(new algebra::Map(n - 1, 0, Tpetra::getDefaultComm()));
     const auto vector = [&](const std::function<double(int)>& value) {
       const auto v = Teuchos::rcp(new algebra::Vector(map));
-      for (std::size_t l = 0; l < map->getNodeNumElements(); ++l)
-        v->replaceLocalValue(l, value(static_cast<int>(map->getGlobalElement(l)) + 1));
+      for (int l = 0; l < algebra::local_size(*map); ++l) v->replaceLocalValue(l, value(static_cast<int>(map->getGlobalElement(l)) + 1));
       return v;
     };
     const auto bend = [&](int body, int i) { return -(u[body][i - 1] - 2 * u[body][i] + u[body][i + 1]) * n * n; };

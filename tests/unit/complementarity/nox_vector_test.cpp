@@ -13,7 +13,7 @@ namespace {
 NoxVector counting(double factor) {
   const auto map = Teuchos::rcp(new algebra::Map(10, 0, Tpetra::getDefaultComm()));
   NoxVector v(map);
-  for (std::size_t l = 0; l < map->getNodeNumElements(); ++l)
+  for (int l = 0; l < algebra::local_size(*map); ++l)
     v.values().replaceLocalValue(l, factor * (static_cast<double>(map->getGlobalElement(l)) + 1));
   return v;
 }
