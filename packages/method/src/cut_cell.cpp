@@ -12,9 +12,10 @@ constexpr int most_divisions = 8;          // of a triangle in four; then the pl
 constexpr int most_halvings = 4;           // of the range of t
 constexpr double no_sign = 1e-13;          // values below this part of the largest have no sign
 constexpr double on_the_curve = 1e-9;      // a vertex with a value below this part of the largest sends no rays
-constexpr double decayed = 1e-6;           // last Legendre coefficients of s*; the error of the rule is about their square
+constexpr double decayed = 3e-5;           // last Legendre coefficients of s*: the error of the rule is about their square
 constexpr double narrowest_range = 1e-13;  // of t or s
 constexpr int most_zeros = 12;             // on one edge
+constexpr int fewest_across = 12;          // order of the rule across the rays: with fewer points s* takes more ranges of t than it saves
 
 ReferencePoint between(const ReferencePoint& a, const ReferencePoint& b, double s) {
   return {a.xi + s * (b.xi - a.xi), a.eta + s * (b.eta - a.eta)};
@@ -42,7 +43,7 @@ CutCell::CutCell(const scene::Field& level_set, double t, int order)
       t_(t),
       plain_(reference::triangle_quadrature(order)),
       along_(reference::line_quadrature(std::min(order + 1, reference::max_quadrature_order))),
-      across_(reference::line_quadrature(std::min(order + 5, reference::max_quadrature_order))) {
+      across_(reference::line_quadrature(std::clamp(order + 5, fewest_across, reference::max_quadrature_order))) {
   const int n = across_.size();
   last_coefficients_.resize(2 * n);
   for (int q = 0; q < n; ++q) {
@@ -270,40 +271,44 @@ bool CutCell::add_rays(const Triangle& T, const Samples& samples, int vertex) {
   for (int k = 0; k <= count; ++k) {
     if (t[k + 1] - t[k] < narrowest_range) continue;
     const Triangle fan = {T[vertex], between(opposite.from, opposite.to, t[k]), between(opposite.from, opposite.to, t[k + 1])};
-    if (!add_fan(fan, samples.value[at], 0)) return false;
+    const std::array<bool, 2> zero_at_end = {k > 0 || sign(opposite.value[0]) == 0, k < count || sign(opposite.value[last]) == 0};
+    if (!add_fan(fan, samples.value[at], zero_at_end, 0)) return false;
   }
   return true;
 }
 
-/// All rays from T[0] to the edge T[1] T[2], which the curve crosses at its ends only.
-bool CutCell::add_fan(const Triangle& T, double value_at_vertex, int halvings) {
+/// All rays from T[0] to the edge T[1] T[2], on which phi has no zeros but perhaps at its ends. False if they do not all meet the curve
+/// in the same way.
+bool CutCell::add_fan(const Triangle& T, double value_at_vertex, std::array<bool, 2> zero_at_end, int halvings) {
   const int n = across_.size();
+  const auto end = [&](int ray) { return between(T[1], T[2], ray == 0 ? 0.0 : ray == n + 1 ? 1.0 : across_.point[ray - 1]); };
   points_.clear();
-  for (int q = -1; q <= n; ++q) {
-    const ReferencePoint end = between(T[1], T[2], q < 0 ? 0.0 : q == n ? 1.0 : across_.point[q]);
-    for (int k = 1; k <= last; ++k) points_.push_back(between(T[0], end, static_cast<double>(k) / last));
-  }
+  for (int ray = 0; ray < n + 2; ++ray)
+    for (int k = 1; k <= last; ++k) points_.push_back(between(T[0], end(ray), static_cast<double>(k) / last));
   evaluate();
   ray_values_ = values_;
 
-  // The rays to both ends only tell whether the curve looks in through the sides.
+  // The first and the last ray are the sides of the fan: no points there, but the curve must not look in through them.
   zeros_.clear();
   unused_.clear();
-  int hit = 0;
-  for (int q = -1; q <= n; ++q) {
-    const bool side = q < 0 || q == n;
-    Segment ray{T[0], between(T[1], T[2], q < 0 ? 0.0 : q == n ? 1.0 : across_.point[q]), {}};
-    ray.value[0] = value_at_vertex;
-    std::copy_n(ray_values_.begin() + (q + 1) * last, last, ray.value + 1);
-    const int count = bracket_zeros(ray, side ? unused_ : zeros_);
+  int hits[2] = {0, 0}, hit = 0;
+  for (int ray = 0; ray < n + 2; ++ray) {
+    const bool side = ray == 0 || ray == n + 1;
+    Segment segment{T[0], end(ray), {}};
+    segment.value[0] = value_at_vertex;
+    std::copy_n(ray_values_.begin() + ray * last, last, segment.value + 1);
+    if (side && zero_at_end[ray == 0 ? 0 : 1]) segment.value[last] = 0;
+    const int count = bracket_zeros(segment, side ? unused_ : zeros_);
     if (count > 1) return false;
-    if (!side) hit += count;
+    (side ? hits[ray == 0 ? 0 : 1] : hit) += count;
   }
+  if (hit != 0 && hit != n) return false;
+  for (const int k : {0, 1})
+    if (hits[k] != (hit == n && !zero_at_end[k] ? 1 : 0)) return false;
   if (hit == 0) {
     add_plain(T);
     return true;
   }
-  if (hit < n) return false;
   solve(zeros_);
   if (resolved()) {
     add_split(T);
@@ -311,7 +316,8 @@ bool CutCell::add_fan(const Triangle& T, double value_at_vertex, int halvings) {
   }
   if (halvings == most_halvings) return false;
   const ReferencePoint middle = between(T[1], T[2], 0.5);
-  return add_fan({T[0], T[1], middle}, value_at_vertex, halvings + 1) && add_fan({T[0], middle, T[2]}, value_at_vertex, halvings + 1);
+  return add_fan({T[0], T[1], middle}, value_at_vertex, {zero_at_end[0], false}, halvings + 1) &&
+         add_fan({T[0], middle, T[2]}, value_at_vertex, {false, zero_at_end[1]}, halvings + 1);
 }
 
 /// Whether the last two Legendre coefficients of s* are small.

@@ -68,7 +68,7 @@ class CutCell {
   void add_piece(const Triangle& T, int divisions);
   void add_crossed(const Triangle& T, const Samples& samples, int divisions);
   bool add_rays(const Triangle& T, const Samples& samples, int vertex);
-  bool add_fan(const Triangle& T, double value_at_vertex, int halvings);
+  bool add_fan(const Triangle& T, double value_at_vertex, std::array<bool, 2> zero_at_end, int halvings);
   bool resolved() const;
   void add_plain(const Triangle& T);
   void add_split(const Triangle& T);
