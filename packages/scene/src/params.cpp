@@ -179,6 +179,7 @@ const core::Schema<SceneParams>& SceneParams::schema() {
                      "cells that it cuts.")
           .blocks("boundary", &SceneParams::boundary, BoundaryParams::schema())
           .check([](const SceneParams& params, core::Problems& problems) {
+            if (params.case_name.empty() && problems.given("case")) return;  // a case that does not exist is reported already
             examine(params, [&](const std::string& path, const std::string& sentence) { problems.add(path, sentence); });
           });
   return s;
