@@ -1,31 +1,67 @@
 #pragma once
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "thixis/mesh/mesh.hpp"
+#include "thixis/core/comm.hpp"
+#include "thixis/core/types.hpp"
+
+namespace thixis::mesh {
+struct Mesh;
+}
 
 namespace thixis::output {
 
 /// Where the values of a field sit.
 enum class Centre { vertex, cell };
 
-/// Values on the local vertices (cells) of a mesh; ghosts are not read.
+/// Values on the local vertices (cells) of a mesh, or on the local points (triangles) of a grid. Ghosts are not read: the values may end
+/// after the last owned entity, e.g. after `owned_cells` cells. They are written as they are, also those that are not finite.
 struct FieldData {
-  std::string name;
+  std::string name;  ///< letters, digits, '_', '-', '.' and inner spaces; one field of that name per call
   Centre centre = Centre::vertex;
-  std::vector<double> values;
+  std::vector<double> values;  ///< [entities][components]
+  int components = 1;          ///< 1, 2 or 3; two of them are stored with a third one, 0, because ParaView knows no others
+};
+
+/// What the file shows: plain triangles on this rank, ghosts or not. A discontinuous field of high order is a grid of its own, whose cells
+/// are the pieces of those of the mesh and share no points.
+///
+/// Ids are 0..points-1 and 0..triangles-1 over all ranks; the rank that owns an entity holds it, and no other rank says that it owns it.
+struct Grid {
+  GlobalIndex global_points = 0, global_triangles = 0;
+  std::vector<std::array<double, 2>> points;
+  std::vector<GlobalIndex> point_id;
+  std::vector<int> point_owner;                      ///< ranks
+  std::vector<std::array<LocalIndex, 3>> triangles;  ///< local points
+  std::vector<GlobalIndex> triangle_id;
+  std::vector<int> triangle_owner;  ///< ranks
 };
 
 /// Writes `fields.h5` and `fields.xdmf` (XDMF 3, relative paths): one file for all ranks, collectively, in the order of global ids, so
-/// that the file does not depend on the number of ranks. Throws FileError on all ranks.
+/// that the arrays do not depend on the number of ranks. All members are collective and throw FileError on all ranks; fields or
+/// grids that contradict themselves are an Error with code `internal`.
+///
+/// One grid makes a plain file; several make a collection in time. Between two calls both files are closed, so that a running series can be
+/// looked at and a killed one leaves what it has written. (The XDMF text lists all grids so far: beyond 128 of them it is renewed
+/// once in a percent of their number, and by close().)
+///
+/// HDF5: `/mesh_<m>/{points [points][2], triangles [triangles][3]}`, `/fields_<n>/<name> [entities]` or `[entities][3]`, and the attribute
+/// `time` of `/fields_<n>`.
 class FieldWriter {
  public:
+  /// Creates an empty fields.h5 in an existing folder; an old fields.xdmf is removed.
   FieldWriter(const std::string& folder, const core::Comm& comm);
   ~FieldWriter();
-  /// One grid with its fields. The mesh is written anew only when it differs from that of the previous call.
+  FieldWriter(const FieldWriter&) = delete;
+  FieldWriter& operator=(const FieldWriter&) = delete;
+
+  /// One grid with its fields; `time` grows from call to call. The mesh is written anew only when its points, triangles or
+  /// numbers differ from those of the previous call.
   void write(const mesh::Mesh& mesh, const std::vector<FieldData>& fields, double time);
-  /// Finishes both files.
+  void write(const Grid& grid, const std::vector<FieldData>& fields, double time);
+  /// Finishes both files; nothing can be written any more.
   void close();
 
  private:

@@ -1,0 +1,43 @@
+#pragma once
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "thixis/core/comm.hpp"
+#include "thixis/core/types.hpp"
+
+namespace thixis::output {
+
+/// A row of the history: of a linear check, a Newton step, a mesh level or a time step. What was not computed stays empty.
+struct HistoryRow {
+  std::optional<int> level, time_step;
+  std::optional<double> time;                  ///< in the unit of the deck
+  std::optional<int> newton;                   ///< step k
+  std::optional<int> linear;                   ///< Krylov iterations of that step so far
+  std::optional<GlobalIndex> active, changed;  ///< contact points
+  std::optional<double> residual;
+  std::optional<double> eta_disc, eta_lin, eta_alg, eta_total;
+  std::optional<double> energy_error;
+  std::optional<double> seconds;  ///< since the start of the run
+};
+
+/// The file `history.csv`: the header
+/// `level,time_step,time,newton,linear,active,changed,residual,eta_disc,eta_lin,eta_alg,eta_total,energy_error,seconds`, then one line
+/// per row, in the file as soon as append() returns. Numbers read back as they were (`nan`, `inf` for those that are not finite).
+class History {
+ public:
+  /// Overwrites the file. A history that is not enabled writes nothing and touches no file. Collective; throws FileError on all ranks.
+  History(const std::string& path, const core::Comm& comm, bool enabled = true);
+  ~History();
+  History(History&&) noexcept;
+  History& operator=(History&&) noexcept;
+
+  /// Writes the row of the root. Collective; throws FileError on all ranks.
+  void append(const HistoryRow& row);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;  ///< none if not enabled
+};
+
+}  // namespace thixis::output

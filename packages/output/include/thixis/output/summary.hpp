@@ -1,0 +1,62 @@
+#pragma once
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "thixis/core/comm.hpp"
+#include "thixis/core/types.hpp"
+
+namespace thixis::output {
+
+/// A bound on the energy error and its parts.
+struct SummaryEstimate {
+  double total = 0, discretization = 0, linearization = 0, algebraic = 0;
+  std::vector<std::pair<std::string, double>> terms;  ///< further keys: every term of the bound by its name
+};
+
+/// What a run says about itself: the object of `summary.json`, members in the order of its keys. What does not exist is null, and so is
+/// what is not finite.
+struct Summary {
+  std::string verdict;  ///< one sentence
+  int exit_code = 0;
+  std::string model, problem_case, method;  ///< `problem_case`: key `case`
+  int degree = 1;
+  int ranks = 1, threads = 1;
+  GlobalIndex cells = 0;
+  struct {
+    GlobalIndex all = 0;     ///< all fields with lambda, Dirichlet values not counted
+    GlobalIndex global = 0;  ///< rows of the Krylov system
+  } unknowns;
+  GlobalIndex nonzeros = 0;
+  GlobalIndex newton_iterations = 0;  ///< on all levels, in all time steps
+  GlobalIndex newton_finest = 0;
+  GlobalIndex linear_iterations = 0;
+  std::optional<double> energy_error;  ///< if there is an exact solution
+  std::optional<double> energy_norm;
+  std::optional<SummaryEstimate> estimate, estimate_published;
+  std::optional<double> effectivity, effectivity_published;
+  struct {
+    std::optional<double> infeasible, negative, complementary, between_nodes, equilibrium;
+  } kkt;
+  std::optional<GlobalIndex> active_points;
+  struct {
+    double total = 0, mesh = 0, assembly = 0, preconditioner = 0, linear = 0, estimate = 0, output = 0;
+  } time;                ///< seconds
+  double memory_mb = 0;  ///< sum over the ranks
+  std::vector<std::pair<std::string, std::string>> versions;
+
+  /// An object whose keys follow those above: what only this model has to say. It must not repeat a key (Error, code `internal`).
+  std::shared_ptr<const nlohmann::ordered_json> extra;
+
+  bool enabled = true;  ///< write() does something
+
+  /// The object as text, indented.
+  std::string text() const;
+  /// Writes the root's summary; at any moment either the old or the new file is there. Collective; throws FileError on all ranks.
+  void write(const std::string& path, const core::Comm& comm) const;
+};
+
+}  // namespace thixis::output

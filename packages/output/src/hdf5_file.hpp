@@ -1,0 +1,38 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "slabs.hpp"
+
+namespace thixis::output {
+
+/// An HDF5 file opened by all ranks together (MPI-IO). Members are collective and throw FileError on all ranks; HDF5 itself prints nothing.
+class Hdf5File {
+ public:
+  enum class Mode { create, extend };
+  Hdf5File(const std::string& path, Mode mode, const core::Comm& comm);
+  /// Closes without complaint.
+  ~Hdf5File();
+  Hdf5File(const Hdf5File&) = delete;
+  Hdf5File& operator=(const Hdf5File&) = delete;
+
+  void add_group(const std::string& name);
+  /// A number attached to a group.
+  void add_attribute(const std::string& group, const std::string& name, double value);
+  /// A new array [slab.total][columns] (a vector if columns = 1) of which every rank brings its slab.
+  void add_array(const std::string& name, const Slab& slab, int columns, const std::vector<double>& rows);
+  void add_array(const std::string& name, const Slab& slab, int columns, const std::vector<GlobalIndex>& rows);
+  /// Brings everything to the file.
+  void close();
+
+ private:
+  using Id = long long;  ///< hid_t, HDF5 header kept out
+  void add_rows(const std::string& name, const Slab& slab, int columns, Id type, const void* rows);
+  void require(bool done, const std::string& what) const;
+
+  std::string path_;
+  core::Comm comm_;
+  Id file_ = -1;
+};
+
+}  // namespace thixis::output

@@ -1,0 +1,43 @@
+#include "xdmf.hpp"
+
+#include <fmt/core.h>
+
+namespace thixis::output {
+namespace {
+
+std::string data_item(const std::string& dimensions, const char* type, const std::string& address) {
+  return fmt::format(R"(<DataItem Dimensions="{}" NumberType="{}" Precision="8" Format="HDF">{}</DataItem>)", dimensions, type, address);
+}
+
+std::string document(const std::string& domain) {
+  return "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n<Domain>\n" + domain + "</Domain>\n</Xdmf>\n";
+}
+
+}  // namespace
+
+std::string xdmf_grid(const XdmfGrid& grid, const std::string& data, bool with_time) {
+  const std::string mesh = fmt::format("{}:/mesh_{}", data, grid.mesh);
+  std::string text = fmt::format("<Grid Name=\"grid {}\" GridType=\"Uniform\">\n", grid.number);
+  if (with_time) text += fmt::format("  <Time Value=\"{}\"/>\n", grid.time);
+  text += fmt::format("  <Topology TopologyType=\"Triangle\" NumberOfElements=\"{}\">{}</Topology>\n", grid.triangles,
+                      data_item(fmt::format("{} 3", grid.triangles), "Int", mesh + "/triangles"));
+  text += fmt::format("  <Geometry GeometryType=\"XY\">{}</Geometry>\n",
+                      data_item(fmt::format("{} 2", grid.points), "Float", mesh + "/points"));
+  for (const XdmfAttribute& attribute : grid.attributes) {
+    const bool cell = attribute.centre == Centre::cell, scalar = attribute.columns == 1;
+    const GlobalIndex rows = cell ? grid.triangles : grid.points;
+    const std::string dimensions = scalar ? fmt::format("{}", rows) : fmt::format("{} {}", rows, attribute.columns);
+    text += fmt::format("  <Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"{}\">{}</Attribute>\n", attribute.name,
+                        scalar ? "Scalar" : "Vector", cell ? "Cell" : "Node",
+                        data_item(dimensions, "Float", fmt::format("{}:/fields_{}/{}", data, grid.number, attribute.name)));
+  }
+  return text + "</Grid>\n";
+}
+
+std::string xdmf_single(const std::string& grid) { return document(grid); }
+
+std::string xdmf_series(const std::string& grids) {
+  return document("<Grid Name=\"series\" GridType=\"Collection\" CollectionType=\"Temporal\">\n" + grids + "</Grid>\n");
+}
+
+}  // namespace thixis::output

@@ -1,0 +1,32 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "thixis/core/types.hpp"
+#include "thixis/output/fields.hpp"
+
+namespace thixis::output {
+
+/// One dataset of the HDF5 file that is a field.
+struct XdmfAttribute {
+  std::string name;
+  Centre centre;
+  int columns;  ///< 1 (scalar) or 3 (vector)
+};
+
+/// One grid of the file: `/mesh_<mesh>` with the fields in `/fields_<number>`.
+struct XdmfGrid {
+  int number = 0, mesh = 0;
+  GlobalIndex points = 0, triangles = 0;
+  double time = 0;
+  std::vector<XdmfAttribute> attributes;
+};
+
+/// A `<Grid>` element that refers to `data`, the name of the HDF5 file beside it. Only grids of a collection have their time: readers of
+/// single grids (meshio) do not know it.
+std::string xdmf_grid(const XdmfGrid& grid, const std::string& data, bool with_time);
+/// The whole text: one grid, or the elements of several ones in a collection in time.
+std::string xdmf_single(const std::string& grid);
+std::string xdmf_series(const std::string& grids);
+
+}  // namespace thixis::output
