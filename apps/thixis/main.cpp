@@ -99,10 +99,9 @@ core::ExitCode dispatch(int argc, char** argv, const core::Comm& comm) {
   add_deck(add("check", "Judge a deck without solving it; all mistakes at once", check));
   CLI::App* explain = add("describe", "Every parameter: type, default, range, one sentence", describe);
   explain->add_option("block", arguments.block, "A block of the deck, e.g. newton or newton/initial (default: all)");
-  explain
-      ->add_option("--format", arguments.format, "text, markdown, or xml (a deck to start from)")
-      ->transform(CLI::CheckedTransformer(
-          std::map<std::string, core::Format>{{"text", core::Format::text}, {"markdown", core::Format::markdown}, {"xml", core::Format::xml}}));
+  explain->add_option("--format", arguments.format, "text, markdown, or xml (a deck to start from)")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, core::Format>{
+          {"text", core::Format::text}, {"markdown", core::Format::markdown}, {"xml", core::Format::xml}}));
   add("cases", "The catalogued cases", cases);
 
   try {

@@ -1,9 +1,10 @@
 #include "versions.hpp"
 
-#include <Kokkos_Core.hpp>
 #include <Trilinos_version.h>
 #include <hdf5.h>
 #include <mpi.h>
+
+#include <Kokkos_Core.hpp>
 
 namespace thixis {
 namespace {

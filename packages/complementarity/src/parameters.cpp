@@ -47,6 +47,8 @@ const core::Schema<StoppingParams>& StoppingParams::schema() {
                      "Nonlinear residual, relative to the data of the problem.")
           .parameter("absolute tolerance", &Params::absolute_tolerance, core::at_least(0),
                      "Added to the bound of the nonlinear residual, in the units of the equations.")
+          .parameter("kkt tolerance", &Params::kkt_tolerance, core::strictly_between(0, 1),
+                     "Largest relative violation of the contact conditions that the verifier lets pass.")
           .parameter("gamma algebraic", &Params::gamma_algebraic, core::strictly_between(0, 1),
                      "Algebraic error, relative to the larger one of discretization and linearization error.")
           .parameter("gamma linearization", &Params::gamma_linearization, core::strictly_between(0, 1),

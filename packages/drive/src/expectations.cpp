@@ -11,15 +11,13 @@ struct Clauses {
   template <class T, class Bound>
   void at_most(const char* what, const std::optional<T>& value, const std::optional<Bound>& bound) {
     if (!bound) return;
-    if (!value)
-      missed.push_back(fmt::format("{} is not known", what));
+    if (!value) missed.push_back(fmt::format("{} is not known", what));
     else if (!(*value <= *bound))
       missed.push_back(fmt::format("{} {:.5g} is above {:.5g}", what, static_cast<double>(*value), static_cast<double>(*bound)));
   }
   void between(const char* what, const std::optional<double>& value, const std::optional<std::vector<double>>& bounds) {
     if (!bounds) return;
-    if (!value)
-      missed.push_back(fmt::format("{} is not known", what));
+    if (!value) missed.push_back(fmt::format("{} is not known", what));
     else if (!(*value >= bounds->at(0) && *value <= bounds->at(1)))
       missed.push_back(fmt::format("{} {:.5g} is not between {:.5g} and {:.5g}", what, *value, bounds->at(0), bounds->at(1)));
   }

@@ -40,7 +40,8 @@ const core::Schema<ExpectParams>& ExpectParams::schema() {
       core::Schema<ExpectParams>("expect", "What must hold of the result; if it does not, the run ends with exit code 4.")
           .parameter("energy error at most", &ExpectParams::energy_error_at_most, core::above(0), "Bound on the true energy error.")
           .parameter("energy error between", &ExpectParams::energy_error_between, "Smallest and largest true energy error.")
-          .parameter("newton iterations at most", &ExpectParams::newton_iterations_at_most, core::at_least(0), "Newton steps on all levels.")
+          .parameter("newton iterations at most", &ExpectParams::newton_iterations_at_most, core::at_least(0),
+                     "Newton steps on all levels.")
           .parameter("newton finest at most", &ExpectParams::newton_finest_at_most, core::at_least(0), "Newton steps on the finest level.")
           .parameter("linear iterations at most", &ExpectParams::linear_iterations_at_most, core::at_least(0), "Krylov iterations in all.")
           .parameter("kkt at most", &ExpectParams::kkt_at_most, core::above(0), "Largest violation of the contact conditions, relative.")

@@ -39,7 +39,8 @@ Verdict judge(const RunParams& params, const Outcome& outcome, long long cells) 
   if (params.stopping.rule != complementarity::StoppingRule::adaptive && !outcome.kkt->holds(tolerance))
     return {ExitCode::not_converged, "not converged: Newton stopped, but " + outcome.kkt->sentence(tolerance)};
   if (!missing.empty()) return {ExitCode::target_missed, "solved, but not as expected: " + clauses + "."};
-  std::string sentence = fmt::format("solved in {} Newton steps and {} Krylov iterations", outcome.newton_iterations, outcome.linear_iterations);
+  std::string sentence =
+      fmt::format("solved in {} Newton steps and {} Krylov iterations", outcome.newton_iterations, outcome.linear_iterations);
   if (outcome.energy_error) sentence += fmt::format("; energy error {:.4e}", *outcome.energy_error);
   return {ExitCode::done, sentence + fmt::format("; contact conditions hold to {:.1e}.", outcome.kkt->worst())};
 }
@@ -60,7 +61,8 @@ class Follow {
 
  private:
   static void begin_level(const mesh::Mesh& mesh, int level, const models::Sizes& sizes) {
-    log::info("level {}: {} cells, {} unknowns ({} in the linear system)", level, mesh.global_cells, sizes.unknowns_all, sizes.unknowns_global);
+    log::info("level {}: {} cells, {} unknowns ({} in the linear system)", level, mesh.global_cells, sizes.unknowns_all,
+              sizes.unknowns_global);
     log::info("{:>6}{:>6}{:>8}{:>10}{:>10}{:>13}", "level", "step", "Krylov", "active", "changed", "residual");
   }
   void step(const Progress& at, const complementarity::NewtonRecord& record) {
@@ -93,14 +95,14 @@ output::Summary summarize(const RunParams& params, const models::Model& model, c
   summary.verdict = verdict.sentence;
   summary.exit_code = static_cast<int>(verdict.code);
   summary.model = model.name();
-  summary.case_name = model.case_name();
-  summary.method = "fem";
+  summary.problem_case = model.case_name();
+  summary.method = method::to_text(params.method.name);
   summary.degree = params.method.degree;
   summary.ranks = comm.size();
   summary.threads = Kokkos::DefaultExecutionSpace::concurrency();
   summary.cells = mesh.global_cells;
-  summary.unknowns_all = sizes.unknowns_all;
-  summary.unknowns_global = sizes.unknowns_global;
+  summary.unknowns.all = sizes.unknowns_all;
+  summary.unknowns.global = sizes.unknowns_global;
   summary.nonzeros = sizes.nonzeros;
   summary.newton_iterations = outcome.newton_iterations;
   summary.newton_finest = outcome.finest.steps;
@@ -108,12 +110,13 @@ output::Summary summarize(const RunParams& params, const models::Model& model, c
   summary.energy_error = outcome.energy_error;
   summary.active_points = outcome.finest.active;
   if (outcome.kkt) {
-    summary.kkt = *outcome.kkt;
+    const auto& kkt = *outcome.kkt;
+    summary.kkt = {kkt.infeasible, kkt.negative, kkt.complementary, kkt.between_nodes, kkt.equilibrium};
     summary.energy_norm = outcome.energy_norm;
   }
-  for (const char* region : {"mesh", "assembly", "preconditioner", "linear", "estimate", "output"})
-    summary.time.emplace_back(region, comm.max(core::seconds(region)));
-  summary.time.insert(summary.time.begin(), {"total", comm.max(total)});
+  const auto longest = [&](const char* region) { return comm.max(core::seconds(region)); };
+  summary.time = {comm.max(total),   longest("mesh"),     longest("assembly"), longest("preconditioner"),
+                  longest("linear"), longest("estimate"), longest("output")};
   summary.memory_mb = comm.sum(core::peak_memory_mb());
   summary.versions = versions;
   return summary;
@@ -129,7 +132,8 @@ void check_served(const RunParams& params) {
         "stopping/estimate, stopping/target and expect/effectivity between need an error estimate, which this version does not compute; "
         "leave them out.");
   if (params.linear.solver == algebra::SolverKind::cg && params.linear.form == algebra::SystemForm::full)
-    throw core::InputError("linear/solver: the full system is not symmetric, so cg can not solve it; write form = reduced, or solver = gmres.");
+    throw core::InputError(
+        "linear/solver: the full system is not symmetric, so cg can not solve it; write form = reduced, or solver = gmres.");
   if (params.linear.preconditioner == algebra::PreconditionerKind::muelu && params.linear.form == algebra::SystemForm::full)
     throw core::InputError("linear/preconditioner: muelu works on the reduced system only; write form = reduced, or preconditioner = ilu.");
 }
@@ -147,28 +151,29 @@ ExitCode run(const RunParams& params, const models::Model& model, const core::De
   // what is wrong in the scene on this mesh shows here, before anything is written
   model.check(finest, params.output.field_names());
 
-  output::RunDirectory directory(params.output.directory, comm);
-  directory.write_deck(core::to_xml(RunParams::schema(), params));
-  comm.on_root([&] { log::open(directory.path("log.txt")); });
-  log::info("{}: model {}{}, on {} {}", deck.file(), model.name(), model.case_name().empty() ? "" : ", case " + model.case_name(), comm.size(),
-            comm.size() == 1 ? "rank" : "ranks");
+  const output::RunDirectory directory(params.output.directory);
+  directory.create(comm);
+  directory.write_deck(core::to_xml(RunParams::schema(), params), comm);
+  comm.on_root([&] { log::open(directory.log()); });
+  log::info("{}: model {}{}, on {} {}", deck.file(), model.name(), model.case_name().empty() ? "" : ", case " + model.case_name(),
+            comm.size(), comm.size() == 1 ? "rank" : "ranks");
   for (const auto& [name, version] : versions) log::detail("{:<16}{}", name, version);
 
-  output::History history(directory.path("history.csv"), comm, params.output.history);
+  output::History history(directory.history(), comm, params.output.history);
   Follow follow(history);
   const Outcome outcome = solve_stationary(model, hierarchy, params, follow.observer());
   const Verdict verdict = judge(params, outcome, finest.global_cells);
 
   if (!outcome.not_wanted && !params.output.no_fields()) {
     const core::Region region("output");
-    output::FieldWriter writer(directory.path(""), comm);
+    output::FieldWriter writer(directory.path(), comm);
     writer.write(*outcome.mesh, outcome.discretization->fields(*outcome.X, outcome.finest.active_set, params.output.field_names()), 0);
     writer.close();
   }
   const auto summary = summarize(params, model, outcome, verdict, *outcome.mesh, comm, clock.seconds(), versions);
-  summary.write(directory.path("summary.json"), comm);
+  summary.write(directory.summary(), comm);
   log::info("{}", core::region_table(comm, clock.seconds()));
-  log::info("results in {}", directory.path(""));
+  log::info("results in {}", directory.path());
   log::verdict("{}", verdict.sentence);
   log::close();
   return verdict.code;

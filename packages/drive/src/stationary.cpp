@@ -30,7 +30,8 @@ Outcome solve_stationary(const models::Model& model, const mesh::Hierarchy& hier
 
   for (int level = nested ? 0 : finest; level <= finest; ++level) {
     auto discretization = model.discretize(hierarchy.levels[level]);
-    const auto X = outcome.discretization ? discretization->nested_start(*outcome.discretization, *outcome.X) : discretization->cold_start();
+    const auto X =
+        outcome.discretization ? discretization->nested_start(*outcome.discretization, *outcome.X) : discretization->cold_start();
     outcome.discretization = std::move(discretization);
     outcome.X = X;
     outcome.mesh = &hierarchy.levels[level];

@@ -127,8 +127,7 @@ double gradient_error(const mesh::Mesh& mesh, const method::QuadratureBlock& blo
 }
 
 void stiffness(const mesh::Mesh& mesh, const Cells& cells, LocalIndex first, const Block1& mu, const Block3& A) {
-  Kokkos::parallel_for("thixis::fem::stiffness", A.extent_int(0),
-                       Stiffness{mesh.coordinates, mesh.cell_vertices, cells, first, mu, A});
+  Kokkos::parallel_for("thixis::fem::stiffness", A.extent_int(0), Stiffness{mesh.coordinates, mesh.cell_vertices, cells, first, mu, A});
 }
 
 void forces(const mesh::Mesh& mesh, const Cells& cells, LocalIndex first, const Block1& mu, const Kokkos::View<const double*>& u,
@@ -138,8 +137,7 @@ void forces(const mesh::Mesh& mesh, const Cells& cells, LocalIndex first, const 
 }
 
 void mean_values(const mesh::Mesh& mesh, const Cells& cells, LocalIndex first, const Block2& d) {
-  Kokkos::parallel_for("thixis::fem::mean_values", d.extent_int(0),
-                       MeanValues{mesh.coordinates, mesh.cell_vertices, cells, first, d});
+  Kokkos::parallel_for("thixis::fem::mean_values", d.extent_int(0), MeanValues{mesh.coordinates, mesh.cell_vertices, cells, first, d});
 }
 
 }  // namespace thixis::fem

@@ -4,8 +4,8 @@
 
 #include "kernels.hpp"
 #include "thixis/algebra/tpetra.hpp"
-#include "thixis/core/error.hpp"
 #include "thixis/core/assert.hpp"
+#include "thixis/core/error.hpp"
 #include "thixis/mesh/host.hpp"
 #include "thixis/method/graph.hpp"
 #include "thixis/reference/quadrature.hpp"
@@ -108,10 +108,8 @@ class LagrangeSpace final : public method::Space {
     Kokkos::deep_copy(values, lift);
     Vector ghosted(numbering_.columns);
     const auto import = graph_->getImporter();
-    if (import.is_null())
-      ghosted.assign(u);
-    else
-      ghosted.doImport(u, *import, Tpetra::INSERT);
+    if (import.is_null()) ghosted.assign(u);
+    else ghosted.doImport(u, *import, Tpetra::INSERT);
     const auto host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), values);
     const auto unknowns = algebra::host_view(std::as_const(ghosted));
     for (std::size_t c = 0; c < numbering_.vertex_of_column.size(); ++c) host(numbering_.vertex_of_column[c]) = unknowns(c);
@@ -229,7 +227,8 @@ class LagrangeSpace final : public method::Space {
       });
       const auto host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), mu);
       for (std::size_t k = 0; k < host.extent(0); ++k)
-        if (!(host(k) > 0)) throw core::InputError("scene/data: a tension is not positive in some cell; give mu1 > 0 and mu2 > 0 everywhere.");
+        if (!(host(k) > 0))
+          throw core::InputError("scene/data: a tension is not positive in some cell; give mu1 > 0 and mu2 > 0 everywhere.");
     });
     return mu;
   }
@@ -267,7 +266,8 @@ class LagrangeSpace final : public method::Space {
       for (int i = 0; i < 2; ++i) {
         const LocalIndex row = column(end[i]);
         if (row < 0 || row >= static_cast<LocalIndex>(out.extent(0))) continue;
-        for (int q = 0; q < rule.size(); ++q) out(row) += length * rule.weight[q] * traction[q] * (i == 0 ? 1 - rule.point[q] : rule.point[q]);
+        for (int q = 0; q < rule.size(); ++q)
+          out(row) += length * rule.weight[q] * traction[q] * (i == 0 ? 1 - rule.point[q] : rule.point[q]);
       }
     }
   }

@@ -38,10 +38,8 @@ VertexNumbering number_vertices(const mesh::Mesh& mesh, const std::vector<bool>&
     for (int i = 0; i < 3; ++i) needed[cell_vertices(patch_cells(k), i)] = true;
   std::vector<LocalIndex> ghosts;
   for (LocalIndex v = 0; v < mesh.vertices; ++v) {
-    if (mesh.vertex_owner[v] == rank)
-      numbering.owned_vertices.push_back(v);
-    else if (needed[v])
-      ghosts.push_back(v);
+    if (mesh.vertex_owner[v] == rank) numbering.owned_vertices.push_back(v);
+    else if (needed[v]) ghosts.push_back(v);
   }
   std::sort(ghosts.begin(), ghosts.end(), [&](LocalIndex v, LocalIndex w) {
     return std::pair(mesh.vertex_owner[v], mesh.vertex_id[v]) < std::pair(mesh.vertex_owner[w], mesh.vertex_id[w]);

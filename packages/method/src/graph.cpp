@@ -15,10 +15,8 @@ constexpr bool concurrent = !std::is_same_v<Execution, Kokkos::Serial>;
 
 template <class T>
 KOKKOS_INLINE_FUNCTION void add(T& target, double value) {
-  if constexpr (concurrent)
-    Kokkos::atomic_add(&target, value);
-  else
-    target += value;
+  if constexpr (concurrent) Kokkos::atomic_add(&target, value);
+  else target += value;
 }
 
 /// Position of `column` in the sorted columns [begin, end) of a row.

@@ -33,8 +33,7 @@ struct Pattern {
         const LocalIndex m = S.graph.entries(e);
         if (m == l)
           for (int other = 0; other < 3; ++other) entries(k++) = 3 * l + other;
-        else
-          entries(k++) = 3 * m + field;
+        else entries(k++) = 3 * m + field;
       }
     }
   }

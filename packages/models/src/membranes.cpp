@@ -37,7 +37,9 @@ Boundary boundary_of(const scene::MembraneScene& scene, const mesh::Mesh& mesh) 
     const auto& condition = given == scene.boundary.end() ? scene.default_boundary : given->second;
     const bool dirichlet = condition.kind == scene::BoundaryKind::dirichlet;
     if (dirichlet && !(condition.value[0] && condition.value[1]))
-      throw core::InputError("scene/boundary/" + tag + ": nothing is said about this part of the boundary; give g1 and g2 there, or g1 and g2 in scene/data for all of it.");
+      throw core::InputError(
+          "scene/boundary/" + tag +
+          ": nothing is said about this part of the boundary; give g1 and g2 there, or g1 and g2 in scene/data for all of it.");
     boundary.dirichlet.push_back(dirichlet);
     for (int alpha = 0; alpha < 2; ++alpha) {
       boundary.values[alpha].dirichlet.push_back(dirichlet ? condition.value[alpha] : nullptr);
@@ -45,7 +47,8 @@ Boundary boundary_of(const scene::MembraneScene& scene, const mesh::Mesh& mesh) 
     }
   }
   if (std::find(boundary.dirichlet.begin(), boundary.dirichlet.end(), true) == boundary.dirichlet.end())
-    throw core::InputError("scene/boundary: no part of the boundary has kind dirichlet, so the membranes are free to float away; fix at least one.");
+    throw core::InputError(
+        "scene/boundary: no part of the boundary has kind dirichlet, so the membranes are free to float away; fix at least one.");
   return boundary;
 }
 
@@ -66,19 +69,21 @@ void check_boundary_gap(const Boundary& boundary, const mesh::Mesh& mesh) {
       boundary.values[1].dirichlet[tag]->evaluate({x.size(), x.data(), y.data()}, 0, lower.data());
       for (std::size_t i = 0; i < x.size(); ++i)
         if (upper[i] < lower[i] - 1e-12 * (std::abs(upper[i]) + std::abs(lower[i])))
-          throw core::InputError(fmt::format("scene/data: on the boundary '{}' the upper membrane lies below the lower one: g1 = {:.6g} < g2 = {:.6g} "
-                                             "at ({:.6g}, {:.6g}); give boundary data with g1 >= g2.",
-                                             mesh.tags[tag], upper[i], lower[i], x[i], y[i]));
+          throw core::InputError(
+              fmt::format("scene/data: on the boundary '{}' the upper membrane lies below the lower one: g1 = {:.6g} < g2 = {:.6g} "
+                          "at ({:.6g}, {:.6g}); give boundary data with g1 >= g2.",
+                          mesh.tags[tag], upper[i], lower[i], x[i], y[i]));
     }
   });
 }
 
-const char* const field_names[] = {"u1", "u2", "lambda", "gap", "active"};
+const char* const known_fields[] = {"u1", "u2", "lambda", "gap", "active"};
 
 void check_field_names(const std::vector<std::string>& names) {
   for (const auto& name : names)
-    if (std::find(std::begin(field_names), std::end(field_names), name) == std::end(field_names))
-      throw core::InputError(fmt::format("output/fields: there is no field '{}'; write all, none, or some of {}.", name, fmt::join(field_names, ", ")));
+    if (std::find(std::begin(known_fields), std::end(known_fields), name) == std::end(known_fields))
+      throw core::InputError(
+          fmt::format("output/fields: there is no field '{}'; write all, none, or some of {}.", name, fmt::join(known_fields, ", ")));
 }
 
 class MembraneDiscretization final : public Discretization {
@@ -122,7 +127,7 @@ class MembraneDiscretization final : public Discretization {
 
   std::optional<double> energy_error(const Vector& X) const override {
     if (!scene_.exact) return std::nullopt;
-        double sum = 0;
+    double sum = 0;
     for (int alpha = 0; alpha < 2; ++alpha)
       sum += space_->energy_error(*scene_.tension[alpha], membrane(X, alpha), scene_.exact->gradient[alpha], 0);
     return std::sqrt(sum);

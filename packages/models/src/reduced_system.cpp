@@ -45,7 +45,8 @@ class ReducedSystem : public LinearizedSystem {
       const auto contact = output(contact_), penalty = output(penalty_);
       Kokkos::parallel_for(
           "thixis::models::contact", Range(0, D.extent_int(0)), KOKKOS_LAMBDA(int l) {
-            const double stiffness = D(l, 0) * Kokkos::Experimental::fabs(a_l(l, 0)), flexible = diagonal(l, 0) * Kokkos::Experimental::fabs(b_l(l, 0));
+            const double stiffness = D(l, 0) * Kokkos::Experimental::fabs(a_l(l, 0)),
+                         flexible = diagonal(l, 0) * Kokkos::Experimental::fabs(b_l(l, 0));
             contact(l, 0) = stiffness >= contact_ratio * flexible ? 1 : 0;
             penalty(l, 0) = contact(l, 0) > 0 ? 0 : D(l, 0) * a_l(l, 0) / b_l(l, 0);
           });
@@ -86,10 +87,8 @@ class ReducedSystem : public LinearizedSystem {
 
   void import_columns(const Vector& from, Vector& to) const {
     const auto import = membranes_.matrix[0]->getGraph()->getImporter();
-    if (import.is_null())
-      to.assign(from);
-    else
-      to.doImport(from, *import, Tpetra::INSERT);
+    if (import.is_null()) to.assign(from);
+    else to.doImport(from, *import, Tpetra::INSERT);
   }
 
   /// y <- factor1 c1 S1 x + factor2 c2 S2 x.
@@ -126,16 +125,15 @@ class ReducedSystem : public LinearizedSystem {
       const auto out = output(*d.getVectorNonConst(2));
       Kokkos::parallel_for(
           "thixis::models::recover", Range(0, out.extent_int(0)), KOKKOS_LAMBDA(int l) {
-            out(l, 0) = contact(l, 0) > 0 ? (r(l, 0) + force1(l, 0) + force2(l, 0)) / D(l, 0)
-                                          : -(C(l, 0) + a(l, 0) * gap(l, 0)) / b(l, 0);
+            out(l, 0) = contact(l, 0) > 0 ? (r(l, 0) + force1(l, 0) + force2(l, 0)) / D(l, 0) : -(C(l, 0) + a(l, 0) * gap(l, 0)) / b(l, 0);
           });
     }
     join(d, dX);
   }
 
   const MembraneOperator& membranes_;
-  Vector diagonal_;  ///< of theta2² S1 + theta1² S2
-  Vector penalty_;   ///< D a/b at free points
+  Vector diagonal_;                   ///< of theta2² S1 + theta1² S2
+  Vector penalty_;                    ///< D a/b at free points
   Vector contact_, contact_columns_;  ///< 1 at contact, 0 elsewhere
   Vector a_, b_;
 };
@@ -152,10 +150,8 @@ struct FillGap {
     for (std::size_t e = S.graph.row_map(l); e < S.graph.row_map(l + 1); ++e) {
       const LocalIndex m = S.graph.entries(e);
       const double value = kappa * S.values(e);
-      if (m == l)
-        A.values(e) = value + penalty(l, 0);
-      else
-        A.values(e) = contact(l, 0) > 0 || contact(m, 0) > 0 ? 0 : value;
+      if (m == l) A.values(e) = value + penalty(l, 0);
+      else A.values(e) = contact(l, 0) > 0 || contact(m, 0) > 0 ? 0 : value;
     }
   }
 };
@@ -180,9 +176,9 @@ class DecoupledSystem final : public ReducedSystem {
  private:
   void set_matrix() override {
     const auto contact = input(contact_columns_), penalty = input(penalty_);
-    Kokkos::parallel_for("thixis::models::gap_matrix", Range(0, penalty.extent_int(0)),
-                         FillGap<decltype(contact)>{membranes_.matrix[0]->getLocalMatrixDevice(), kappa_, contact, penalty,
-                                                    A_->getLocalMatrixDevice()});
+    Kokkos::parallel_for(
+        "thixis::models::gap_matrix", Range(0, penalty.extent_int(0)),
+        FillGap<decltype(contact)>{membranes_.matrix[0]->getLocalMatrixDevice(), kappa_, contact, penalty, A_->getLocalMatrixDevice()});
     gap_.set_matrix(A_, 1, coordinates_);
   }
 
@@ -209,8 +205,7 @@ class DecoupledSystem final : public ReducedSystem {
     right_side_z(R, r_z, dz, coupled, rhs);
     algebra::LinearStop inner = stop;
     inner.tolerance = share * stop.tolerance;
-    if (stop.criterion)
-      inner.criterion = recovered(stop, recover, mean.iterations, [&](const Vector& x) { return std::pair(&dw, &x); });
+    if (stop.criterion) inner.criterion = recovered(stop, recover, mean.iterations, [&](const Vector& x) { return std::pair(&dw, &x); });
     algebra::LinearReport gap = gap_.solve(rhs, dz, inner);
     gap.iterations += mean.iterations;
     gap.residual = std::hypot(gap.residual, sum_ * mean.residual);
@@ -284,8 +279,7 @@ struct PatternCoupled {
 /// Tensions that vary: one system for (w, z), interlaced.
 class CoupledSystem final : public ReducedSystem {
  public:
-  CoupledSystem(const MembraneOperator& membranes, const algebra::LinearParams& params,
-                const Teuchos::RCP<const MultiVector>& coordinates)
+  CoupledSystem(const MembraneOperator& membranes, const algebra::LinearParams& params, const Teuchos::RCP<const MultiVector>& coordinates)
       : ReducedSystem(membranes), coordinates_(coordinates), solver_(params), map_(algebra::interlaced(membranes.map(), 2)) {
     const LocalMatrix S = membranes.matrix[0]->getLocalMatrixDevice();
     using LocalGraph = algebra::Graph::local_graph_device_type;
@@ -293,8 +287,8 @@ class CoupledSystem final : public ReducedSystem {
     LocalGraph::entries_type::non_const_type entries("thixis::models::entries", 4 * S.nnz());
     Kokkos::parallel_for("thixis::models::coupled_pattern", Range(0, S.numRows()),
                          PatternCoupled<decltype(row_map), decltype(entries)>{S, S.numRows(), row_map, entries});
-    A_ = Teuchos::rcp(new algebra::Matrix(
-        algebra::make_graph(map_, algebra::interlaced(membranes.matrix[0]->getColMap(), 2), row_map, entries)));
+    A_ = Teuchos::rcp(
+        new algebra::Matrix(algebra::make_graph(map_, algebra::interlaced(membranes.matrix[0]->getColMap(), 2), row_map, entries)));
     A_->fillComplete();
   }
   GlobalIndex rows() const override { return A_->getGlobalNumRows(); }
@@ -303,11 +297,11 @@ class CoupledSystem final : public ReducedSystem {
  private:
   void set_matrix() override {
     const auto contact = input(contact_columns_), penalty = input(penalty_);
-    Kokkos::parallel_for("thixis::models::coupled_matrix", Range(0, penalty.extent_int(0)),
-                         FillCoupled<decltype(contact)>{membranes_.matrix[0]->getLocalMatrixDevice(),
-                                                        membranes_.matrix[1]->getLocalMatrixDevice(), membranes_.factor[0],
-                                                        membranes_.factor[1], membranes_.theta[0], membranes_.theta[1], contact, penalty,
-                                                        A_->getLocalMatrixDevice()});
+    Kokkos::parallel_for(
+        "thixis::models::coupled_matrix", Range(0, penalty.extent_int(0)),
+        FillCoupled<decltype(contact)>{membranes_.matrix[0]->getLocalMatrixDevice(), membranes_.matrix[1]->getLocalMatrixDevice(),
+                                       membranes_.factor[0], membranes_.factor[1], membranes_.theta[0], membranes_.theta[1], contact,
+                                       penalty, A_->getLocalMatrixDevice()});
     solver_.set_matrix(A_, 2, coordinates_);
   }
 

@@ -30,7 +30,7 @@ struct Outcome {
   std::unique_ptr<models::Discretization> discretization;
   Teuchos::RCP<algebra::Vector> X;
   bool solved = false;
-  bool not_wanted = false;    ///< max iterations = 0: only counted
+  bool not_wanted = false;  ///< max iterations = 0: only counted
   complementarity::NewtonReport finest;
   int newton_iterations = 0, linear_iterations = 0;  ///< on all levels
   std::optional<complementarity::Kkt> kkt;

@@ -13,6 +13,7 @@
 namespace thixis::method {
 
 enum class MethodName { fem, dg, hho, fv };
+std::string to_text(MethodName name);  ///< as in the deck
 enum class Nodes { gauss_lobatto, equispaced, bernstein };
 
 /// Block `method` of the deck.
