@@ -1,8 +1,10 @@
 #pragma once
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "thixis/complementarity/newton.hpp"
 #include "thixis/drive/params.hpp"
 #include "thixis/models/model.hpp"
 
