@@ -107,7 +107,7 @@ Teuchos::ParameterList options(int fields, int ranks, const Teuchos::RCP<const M
   list.set("number of equations", fields);
   list.set("coarse: max size", coarse_rows);
   list.set("smoother: type", "CHEBYSHEV");
-  list.sublist("smoother: params").set("chebyshev: degree", std::getenv("DEG") ? atoi(std::getenv("DEG")) : 2);
+  list.sublist("smoother: params").set("chebyshev: degree", 3);
   if (ranks == 1) return list;
   list.set("repartition: enable", true);
   list.set("repartition: partitioner", "zoltan2");
@@ -115,7 +115,7 @@ Teuchos::ParameterList options(int fields, int ranks, const Teuchos::RCP<const M
   // Cutting into several parts needs coordinates; moving all to one rank does not.
   const bool cut = !coordinates.is_null();
   list.set("repartition: min rows per proc", cut ? rows_per_rank : std::numeric_limits<int>::max());
-  list.sublist("repartition: params").set("algorithm", std::string(cut ? "rcb" : "block"));
+  list.sublist("repartition: params").set("algorithm", std::string(cut ? "multijagged" : "block"));
   if (cut) list.sublist("user data").set("Coordinates", Teuchos::rcp_const_cast<MultiVector>(coordinates));
   return list;
 }

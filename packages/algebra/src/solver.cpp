@@ -102,6 +102,8 @@ void Solver::Impl::set_up(int fields, const Teuchos::RCP<const MultiVector>& coo
 
 LinearReport Solver::solve(const Vector& b, Vector& x, const LinearStop& stop) const {
   if (impl_->A.is_null()) throw core::Error(core::ExitCode::internal, "algebra::Solver: solve() needs set_matrix() first");
+  THIXIS_ASSERT(b.getMap()->isSameAs(*impl_->A->getRangeMap()) && x.getMap()->isSameAs(*impl_->A->getDomainMap()),
+                "b and x are distributed like the rows and columns of A");
   core::Region region("linear");
   core::WithoutFloatingPointTraps quiet;
   LinearReport report;

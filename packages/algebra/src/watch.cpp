@@ -37,6 +37,7 @@ Teuchos::RCP<const MultiVector> iterate(Watch::Iteration& iteration) {
 
 void Watch::begin(const LinearStop& stop, int max_iterations) {
   stop_ = stop;
+  asks_ = stop.check_every > 0 && stop.criterion;
   max_iterations_ = max_iterations;
   asked_ = 0;
   stalled_ = 0;
@@ -70,7 +71,7 @@ bool Watch::ends_with(const Vector& x, double residual, int iterations) {
   if (verdict_ == Verdict::limit) return end(false, fmt::format("{} iterations were not enough", iterations));
   if (stalled_ < 2) return false;
   // The iterate will not get better, so the criterion has a last chance to be content with it.
-  report_.by_criterion = stop_.check_every > 0 && asked_ != iterations && ask(x, iterations, residual);
+  report_.by_criterion = asks_ && asked_ != iterations && ask(x, iterations, residual);
   return end(report_.by_criterion, report_.by_criterion ? "" : fmt::format("the residual stagnates at {:.3g}", residual));
 }
 
@@ -111,7 +112,7 @@ Watch::Verdict Watch::judge(Iteration& iteration) {
   if (norm <= std::max(stop_.tolerance, trusted_reduction * cycle_residual_)) return Verdict::tolerance;
   report_.reason = breakdown(iteration, norm);
   if (!report_.reason.empty()) return Verdict::failure;
-  if (new_iterate && stop_.check_every > 0 && i % stop_.check_every == 0) {
+  if (new_iterate && asks_ && i % stop_.check_every == 0) {
     const auto x = iterate(iteration);
     if (ask(*x->getVector(0), i, norm)) return Verdict::criterion;
   }

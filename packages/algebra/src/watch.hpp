@@ -41,6 +41,7 @@ class Watch : public Belos::StatusTest<double, MultiVector, Operator> {
   bool end(bool converged, const std::string& reason);  ///< true
 
   LinearStop stop_;
+  bool asks_ = false;
   int max_iterations_ = 0;
   int asked_ = 0;              ///< the iteration at which the criterion was asked last
   int judged_ = -1;            ///< Belos asks twice for the same iteration, after a restart and when it returns

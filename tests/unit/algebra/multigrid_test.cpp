@@ -19,30 +19,28 @@ int iterations(const Row& row, int n, int fields, const Teuchos::RCP<const Multi
   LinearStop stop;
   stop.tolerance = 1e-10 * norm2(b);
   const LinearReport report = solver.solve(b, x, stop);
+ 
   EXPECT_TRUE(report.converged) << report.reason;
   EXPECT_LE(true_residual(*A, b, x), stop.tolerance);
   ::testing::Test::RecordProperty("iterations_" + std::to_string(n), report.iterations);
-  if (std::getenv("DEBUGITS") && A->getComm()->getRank() == 0)
-    std::cerr << "n " << n << " fields " << fields << " its " << report.iterations << " setup " << solver.seconds_preconditioner()
-              << std::endl;
   return report.iterations;
 }
 
 }  // namespace
 
 TEST(Multigrid, needs_about_the_same_number_of_iterations_on_all_meshes) {
-  for (const int n : {64, 128, 256}) EXPECT_LE(iterations(poisson(n), n, 1, coordinates(n), Distribution::even), 25) << n;
+  for (const int n : {64, 128, 256}) EXPECT_LE(iterations(poisson(n), n, 1, coordinates(n), Distribution::even), 15) << n;
 }
 TEST(Multigrid, copes_with_decoupled_rows_of_any_size_on_a_contact_patch) {
   for (const double scale : {1., 1e-4, 1e4})
     for (const int n : {64, 128, 256})
-      EXPECT_LE(iterations(reduced_membranes(n, scale), n, 2, coordinates(n), Distribution::even), 30) << n << " " << scale;
+      EXPECT_LE(iterations(reduced_membranes(n, scale), n, 2, coordinates(n), Distribution::even), 16) << n << " " << scale;
 }
-TEST(Multigrid, needs_no_coordinates) { EXPECT_LE(iterations(reduced_membranes(128, 1), 128, 2, Teuchos::null, Distribution::even), 30); }
+TEST(Multigrid, needs_no_coordinates) { EXPECT_LE(iterations(reduced_membranes(128, 1), 128, 2, Teuchos::null, Distribution::even), 16); }
 TEST(Multigrid, copes_with_a_rank_without_rows) {
   const auto empty = Distribution::last_rank_empty;
-  EXPECT_LE(iterations(reduced_membranes(128, 1), 128, 2, coordinates(128, empty), empty), 30);
-  EXPECT_LE(iterations(reduced_membranes(128, 1), 128, 2, Teuchos::null, empty), 30);
+  EXPECT_LE(iterations(reduced_membranes(128, 1), 128, 2, coordinates(128, empty), empty), 16);
+  EXPECT_LE(iterations(reduced_membranes(128, 1), 128, 2, Teuchos::null, empty), 16);
 }
 TEST(Multigrid, solves_small_systems_at_once) {
   EXPECT_LE(iterations(reduced_membranes(2, 1), 2, 2, coordinates(2), Distribution::even), 1);

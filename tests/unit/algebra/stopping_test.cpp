@@ -155,6 +155,6 @@ TEST_P(Stopping, converged_means_that_the_true_residual_meets_the_tolerance) {
 }
 
 INSTANTIATE_TEST_SUITE_P(of, Stopping, ::testing::Values(SolverKind::gmres, SolverKind::cg),
-                         [](const auto& info) { return info.param == SolverKind::gmres ? "gmres" : "cg"; });
+                         [](const auto& instance) { return instance.param == SolverKind::gmres ? "gmres" : "cg"; });
 
 }  // namespace thixis::algebra::testing

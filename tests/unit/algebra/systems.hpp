@@ -20,8 +20,7 @@ MatrixPtr matrix(const MapPtr& map, const Row& row);
 Row poisson(int n);
 /// The same with natural boundary conditions: singular, constants are its kernel.
 Row neumann(int n);
-/// Two membranes, unknowns u1, u2, lambda: L u1 - lambda, L u2 + lambda, and u1 - u2 (contact) or lambda (no contact). The diagonal of the
-/// third row is zero in contact, and so is that of its pattern's partner in the others' lambda columns never.
+/// Two membranes, unknowns u1, u2, lambda: L u1 - lambda, L u2 + lambda, and u1 - u2 in contact (a zero on the diagonal), lambda elsewhere.
 Row membranes(int n);
 /// The same after elimination, unknowns u1, u2: without contact both rows are L; in contact the first row is the sum of both operators,
 /// the second only `scale` on the diagonal.

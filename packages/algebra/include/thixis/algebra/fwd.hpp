@@ -2,7 +2,6 @@
 /// The Tpetra types that Thixis uses, declared without a Tpetra header: one scalar, one pair of ordinals, the default node.
 /// `src/aliases.cpp` proves that they are Tpetra's own defaults.
 #include <Kokkos_Macros.hpp>
-
 #include <Teuchos_RCPDecl.hpp>
 
 #include "thixis/core/types.hpp"
@@ -18,13 +17,20 @@ class KokkosDeviceWrapperNode;
 }  // namespace Kokkos
 
 namespace Tpetra {
-template <class LO, class GO, class Node> class Map;
-template <class S, class LO, class GO, class Node> class Vector;
-template <class S, class LO, class GO, class Node> class MultiVector;
-template <class S, class LO, class GO, class Node> class CrsMatrix;
-template <class S, class LO, class GO, class Node> class Operator;
-template <class LO, class GO, class Node> class CrsGraph;
-template <class LO, class GO, class Node> class Import;
+template <class LO, class GO, class Node>
+class Map;
+template <class S, class LO, class GO, class Node>
+class Vector;
+template <class S, class LO, class GO, class Node>
+class MultiVector;
+template <class S, class LO, class GO, class Node>
+class CrsMatrix;
+template <class S, class LO, class GO, class Node>
+class Operator;
+template <class LO, class GO, class Node>
+class CrsGraph;
+template <class LO, class GO, class Node>
+class Import;
 }  // namespace Tpetra
 
 namespace thixis::algebra {

@@ -53,7 +53,9 @@ class Solver {
   Solver& operator=(const Solver&) = delete;
 
   /// Takes the values of a matrix and sets up the preconditioner. Call it again after the values have changed.
-  /// fields: unknowns per node (MueLu: PDE equations); coordinates: of the nodes (rows / fields; MueLu with several ranks), may be null.
+  /// For MueLu: fields = unknowns per node, whose rows have the ids fields·node + 0, 1, ... and lie on one rank; coordinates of the nodes
+  /// on several ranks (rows / fields of them, in the same order), may be null, but then all levels but the finest live on one rank. MueLu
+  /// refuses zeros on the diagonal and torn nodes by InputError; what else is wrong with the matrix shows in the reports of `solve`.
   void set_matrix(const Teuchos::RCP<const Matrix>& A, int fields, const Teuchos::RCP<const MultiVector>& coordinates);
 
   /// Starts from x and overwrites it. Throws InputError for a combination that can not work, never leaves NaN in x unnoticed.
