@@ -11,15 +11,17 @@
 namespace thixis::complementarity {
 namespace {
 
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
 /// What is not finite counts as infinitely wrong.
-KOKKOS_INLINE_FUNCTION double judged(double x) { return x - x == 0 ? x : std::numeric_limits<double>::infinity(); }
+double judged(double x) { return std::isfinite(x) ? x : infinite; }
 
 /// Largest max(-v_l, 0) / scale
 struct BelowZero {
   Read v;
   double scale;
   KOKKOS_FUNCTION void operator()(int l, double& worst) const {
-    const double violation = judged(v(l) <= 0 ? -v(l) / scale : 0 * v(l));
+    const double violation = !std::isfinite(v(l)) ? infinite : v(l) < 0 ? -v(l) / scale : 0.0;
     if (worst < violation) worst = violation;
   }
 };
@@ -29,8 +31,8 @@ struct NotComplementary {
   Read gap, multiplier;
   double gap_scale, multiplier_scale;
   KOKKOS_FUNCTION void operator()(int l, double& worst) const {
-    const double g = judged(std::abs(gap(l)) / gap_scale), m = judged(std::abs(multiplier(l)) / multiplier_scale);
-    const double violation = g < m ? g : m;
+    const double g = std::abs(gap(l)) / gap_scale, m = std::abs(multiplier(l)) / multiplier_scale;
+    const double violation = !std::isfinite(g) || !std::isfinite(m) ? infinite : g < m ? g : m;
     if (worst < violation) worst = violation;
   }
 };
@@ -40,7 +42,8 @@ struct Disagreement {
   Read multiplier, claimed;
   double scale;
   KOKKOS_FUNCTION void operator()(int l, double& worst) const {
-    const double violation = judged(std::abs(multiplier(l) - claimed(l)) / scale);
+    const double difference = std::abs(multiplier(l) - claimed(l)) / scale;
+    const double violation = std::isfinite(difference) ? difference : infinite;
     if (worst < violation) worst = violation;
   }
 };
@@ -76,7 +79,7 @@ Kkt verify(const KktData& data) {
   const algebra::Vector& gap = *data.gap;
   Kkt kkt;
   kkt.infeasible = worst_of("thixis::complementarity::infeasible", gap, BelowZero{read(gap), data.gap_scale});
-  kkt.between_nodes = judged(std::max(data.between_nodes / data.gap_scale, 0.0) + 0 * data.between_nodes);
+  kkt.between_nodes = std::max(judged(data.between_nodes / data.gap_scale), 0.0);
   kkt.equilibrium = judged(std::abs(data.unbalanced) / data.multiplier_scale);
 
   const auto judge = [&](const algebra::Vector& multiplier) {

@@ -94,8 +94,7 @@ class Run {
     Steps steps = params_.globalization == Globalization::line_search ? Steps::damped : Steps::full;
     for (;;) {
       const Ending ending = take(steps);
-      const bool goes_on = steps == Steps::full ? falls_back(ending) : ending == Ending::fallen;
-      if (!goes_on || report_.steps >= params_.max_iterations) return conclude(ending);
+      if (!goes_on_) return conclude(ending);
       steps = steps == Steps::full ? Steps::damped : Steps::full;
       announce(ending);
     }
@@ -117,6 +116,8 @@ class Run {
       why_ = failure.why;
     }
     period_ = tests.cycle.is_null() ? 0 : tests.cycle->period();
+    goes_on_ = report_.steps < params_.max_iterations &&
+               (steps == Steps::full ? falls_back(ending, solver.getNumIterations()) : ending == Ending::fallen);
     keep(solver, ending);
     return ending;
   }
@@ -144,18 +145,17 @@ class Run {
   }
 
   void keep(const NOX::Solver::LineSearchBased& solver, Ending ending) {
-    const bool back = params_.globalization == Globalization::hybrid && (ending == Ending::growing || ending == Ending::not_finite);
     const bool step_before = ending == Ending::not_finite && solver.getNumIterations() > 0;
     const auto& group = dynamic_cast<const NoxGroup&>(step_before ? solver.getPreviousSolutionGroup() : solver.getSolutionGroup());
     last_ = group.state();
-    steps_of_kind_ = solver.getNumIterations();
+    const bool back = goes_on_ && (ending == Ending::growing || ending == Ending::not_finite);
     if (!back) Tpetra::deep_copy(X_, group.X());
   }
 
-  bool falls_back(Ending ending) const {
+  bool falls_back(Ending ending, int steps_taken) const {
     if (ending == Ending::cycle) return true;
     if (params_.globalization != Globalization::hybrid) return false;
-    return ending == Ending::growing || (ending == Ending::not_finite && steps_of_kind_ > 0);
+    return ending == Ending::growing || (ending == Ending::not_finite && steps_taken > 0);
   }
 
   void announce(Ending ending) {
@@ -168,7 +168,7 @@ class Run {
     const std::string why = ending == Ending::cycle     ? fmt::format("Newton-min cycles with period {}", period_)
                             : ending == Ending::growing ? std::string("The residual keeps growing")
                                                         : std::string("The residual is not finite");
-    system_.say(fmt::format("{} (step {}): damped Fischer-Burmeister steps until the residual has fallen by a factor of {:.0e}.", why,
+    system_.say(fmt::format("{} (step {}): damped Fischer-Burmeister steps until the residual has fallen to {:g} of what it is now.", why,
                             report_.steps, fall_));
   }
 
@@ -192,6 +192,7 @@ class Run {
         return fmt::format("The contact set did not change in step {}: its linear system is solved, and with it the problem.",
                            report_.steps);
       case Ending::not_finite:
+        if (report_.steps == 0) return "The residual at the start is not a finite number.";
         return fmt::format("Step {} gives a residual that is not a finite number; the iterate before it is kept.", report_.steps);
       case Ending::failed:
         return fmt::format("Step {} was not possible: {}.", report_.steps + 1, why_);
@@ -210,7 +211,7 @@ class Run {
   std::string why_;
   double fall_ = 0.1;
   int period_ = 0;
-  int steps_of_kind_ = 0;
+  bool goes_on_ = false;
 };
 
 }  // namespace

@@ -37,7 +37,8 @@ NOX::Abstract::Group::ReturnType NoxGroup::computeF() {
 }
 
 NOX::Abstract::Group::ReturnType NoxGroup::computeJacobian() {
-  if (!is_Jacobian_) system_.linearize(X_.values());
+  if (!is_F_) return BadDependency;
+  if (!is_Jacobian_) system_.linearize(X_.values(), state_.active);
   is_Jacobian_ = true;
   return Ok;
 }

@@ -45,9 +45,9 @@ State System::residual(const algebra::Vector& X, algebra::Vector& R) {
   return state;
 }
 
-void System::linearize(const algebra::Vector& X) {
+void System::linearize(const algebra::Vector& X, const ActiveSet& active) {
   problem_.arguments(X, K_, G_);
-  differentiate(function_, K_, G_, s_, ActiveSet(K_, G_, s_, newton_.ties, newton_.tie_tolerance), a_, b_);
+  differentiate(function_, K_, G_, s_, active, a_, b_);
   problem_.linearize(X, a_, b_);
 }
 

@@ -32,8 +32,8 @@ class System {
 
   /// Overwrites R.
   State residual(const algebra::Vector& X, algebra::Vector& R);
-  /// A(X), kept inside the problem.
-  void linearize(const algebra::Vector& X);
+  /// A(X) for the contact set that `residual` found at X; kept inside the problem.
+  void linearize(const algebra::Vector& X, const ActiveSet& active);
   /// A(X) dX = -R with the A of the last `linearize`; throws StepFailed on all ranks.
   void solve(const algebra::Vector& X, const algebra::Vector& R, algebra::Vector& dX);
 

@@ -137,7 +137,10 @@ algebra::LinearReport DenseProblem::solve(const algebra::Vector& R, algebra::Vec
       own[l] = linear.gives_nan ? std::numeric_limits<double>::quiet_NaN() : -linear.overshoot * part * exact[offset + l];
   };
   double left = 1;
-  for (int i = 1; i <= linear.max_iterations; ++i) {
+  report.residual = start;
+  report.converged = start <= stop.tolerance;
+  put(0);
+  for (int i = 1; i <= linear.max_iterations && !report.converged; ++i) {
     left *= linear.rate;
     report.iterations = i;
     report.residual = left * start;

@@ -38,6 +38,7 @@ class DenseProblem : public Problem {
   explicit DenseProblem(DenseData data);
 
   LinearBehaviour linear;
+  double rhs_factor = 1;                ///< |B| in units of |(F, 0)|
   std::function<double(double)> spoil;  ///< applied to every entry of the equations, if set
   mutable int equations_asked = 0;      ///< calls of `equations`
   std::vector<double> tolerances;       ///< what the solves were asked for
@@ -51,6 +52,7 @@ class DenseProblem : public Problem {
   void linearize(const algebra::Vector& X, const algebra::Vector& a, const algebra::Vector& b) override;
   algebra::LinearReport solve(const algebra::Vector& R, algebra::Vector& dX, const algebra::LinearStop& stop) override;
   double reference_norm() const override;
+  double rhs_norm(const algebra::Vector& X, const algebra::Vector& R) const override { return rhs_factor * Problem::rhs_norm(X, R); }
 
   /// A vector on `map()` with the values (field, point).
   algebra::Vector vector(const std::function<double(int field, int point)>& value) const;
