@@ -26,7 +26,8 @@ View<double* [2]> to_points(const std::string& label, const std::vector<double>&
   return view;
 }
 
-/// Whether the curve may go through a cell, from the values at its vertices and its centre.
+/// Whether the curve may go through a cell, from the values at its vertices and its centre: a change of sign, or values as near to zero
+/// as twice their variation. Saves a closer look at most cells.
 bool suspicious(const double (&value)[4]) {
   const auto [low, high] = std::minmax_element(value, value + 4);
   if (*low <= 0 && *high >= 0) return true;

@@ -62,7 +62,7 @@ MembraneScene from_data(const SceneParams& params) {
 }
 
 MembraneScene from_case(const SceneParams& params) {
-  CatalogueEntry entry = catalogue(params.case_name);
+  CatalogueEntry entry = catalogue(*params.case_name);
   if (!params.interface.empty())
     entry.scene.interface_level_set = expression("scene/interface", params.interface.text, entry.centre, entry.constants);
   return entry.scene;

@@ -94,12 +94,23 @@ void examine_data(const SceneParams& params, const DataParams& data, const Repor
   examine_dirichlet(params, data, report);
 }
 
+const std::vector<std::pair<std::string, Model>>& models() {
+  static const std::vector<std::pair<std::string, Model>> all = {{"membranes", Model::membranes},
+                                                                 {"obstacle", Model::obstacle},
+                                                                 {"parabolic membranes", Model::parabolic_membranes},
+                                                                 {"signorini", Model::signorini},
+                                                                 {"two-phase", Model::two_phase}};
+  return all;
+}
+
 void examine_case(const SceneParams& params, const Report& report) {
   const Case* found = nullptr;
   for (const Case& known : cases())
     if (known.name == params.case_name) found = &known;
-  if (found == nullptr) return report("case", "'" + params.case_name + "' is no catalogued case; `thixis cases` lists them.");
-  if (found->model != params.model) report("case", "'" + params.case_name + "' belongs to another model.");
+  if (found == nullptr) return report("case", "'" + *params.case_name + "' is no catalogued case; `thixis cases` lists them.");
+  for (const auto& [name, model] : models())
+    if (model == found->model && model != params.model)
+      report("case", "'" + found->name + "' is a case of another model; write model = '" + name + "' or take one of its own.");
   if (!params.boundary.empty())
     report("boundary", "a catalogued case brings its own boundary data; drop this block, or give 'data' in place of 'case'.");
   examine_formula("interface", params.interface, catalogue(found->name).constants, report);
@@ -114,8 +125,8 @@ core::Range case_names() {
 }  // namespace
 
 void examine(const SceneParams& params, const Report& report) {
-  if (!params.case_name.empty() && params.data) return report("data", "there is a case as well; give either 'case' or 'data'.");
-  if (params.case_name.empty() && !params.data)
+  if (params.case_name && params.data) return report("data", "there is a case as well; give either 'case' or 'data'.");
+  if (!params.case_name && !params.data)
     return report("", "nothing says which problem to solve; give a catalogued 'case' or a sublist 'data'.");
   if (params.data) {
     examine_data(params, *params.data, report);
@@ -164,13 +175,7 @@ const core::Schema<BoundaryParams>& BoundaryParams::schema() {
 const core::Schema<SceneParams>& SceneParams::schema() {
   static const auto s =
       core::Schema<SceneParams>("scene", "Which problem is solved: a catalogued case, or data of your own.")
-          .choice("model", &SceneParams::model,
-                  {{"membranes", Model::membranes},
-                   {"obstacle", Model::obstacle},
-                   {"parabolic membranes", Model::parabolic_membranes},
-                   {"signorini", Model::signorini},
-                   {"two-phase", Model::two_phase}},
-                  "The equations and what is constrained.")
+          .choice("model", &SceneParams::model, models(), "The equations and what is constrained.")
           .required()
           .parameter("case", &SceneParams::case_name, case_names(), "A catalogued case (`thixis cases`); give this or 'data'.")
           .block("data", &SceneParams::data, DataParams::schema())
@@ -179,7 +184,7 @@ const core::Schema<SceneParams>& SceneParams::schema() {
                      "cells that it cuts.")
           .blocks("boundary", &SceneParams::boundary, BoundaryParams::schema())
           .check([](const SceneParams& params, core::Problems& problems) {
-            if (params.case_name.empty() && problems.given("case")) return;  // a case that does not exist is reported already
+            if (!params.case_name && problems.given("case")) return;  // a case that does not exist is reported already
             examine(params, [&](const std::string& path, const std::string& sentence) { problems.add(path, sentence); });
           });
   return s;

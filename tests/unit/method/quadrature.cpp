@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
+#include <random>
 #include <string>
 
 #include "thixis/core/error.hpp"
@@ -144,6 +144,22 @@ TEST(CutCells, follow_several_circles_given_by_a_product) {
     expect_moments(square(level), a, product, 4, 1e-10, "first circle on T_" + std::to_string(level));
     expect_moments(square(level), b, product, 4, 1e-10, "second circle on T_" + std::to_string(level));
   }
+}
+
+TEST(CutCells, follow_any_circle) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (int k = 0; k < 200; ++k) {
+    const double R = 0.07 + 0.38 * unit(random);
+    const Circle circle{R + (1 - 2 * R) * unit(random), R + (1 - 2 * R) * unit(random), R};
+    expect_moments(square(k % 3), circle, circle.level_set(), 4, 1e-10,
+                   "centre " + std::to_string(circle.x) + " " + std::to_string(circle.y) + ", R " + std::to_string(R));
+  }
+  // Three that look into a cell through a corner of it.
+  for (const Circle& circle : {Circle{0.4666073847736255, 0.818873842702516, 0.1628030362871558},
+                               Circle{0.2703765398068436, 0.6857585334105885, 0.07058737951353697},
+                               Circle{0.2701864039151451, 0.5823093948563827, 0.08507659286376382}})
+    expect_moments(square(0), circle, circle.level_set(), 4, 1e-10, "corner");
 }
 
 TEST(CutCells, follow_nested_rings) {

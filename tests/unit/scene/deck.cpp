@@ -190,6 +190,26 @@ TEST(SceneDeck, offers_the_nearest_case) {
   EXPECT_EQ(message.find('\n'), std::string::npos) << message;
 }
 
+TEST(SceneDeck, is_written_and_read_again) {
+  const auto schema = core::Schema<Root>("thixis", "A deck.").block("scene", &Root::scene, SceneParams::schema());
+  for (const std::string& inside :
+       {model + "<Parameter name=\"case\" type=\"string\" value=\"disk b\"/>\n",
+        model + "<ParameterList name=\"data\">\n<Parameter name=\"g1\" type=\"string\" value=\"x &lt; 0 ? 1 : 2\"/>\n"
+                "<Parameter name=\"g2\" type=\"double\" value=\"-1\"/>\n</ParameterList>\n"}) {
+    const std::string written = core::to_xml(schema, Root{parse(inside)});
+    const SceneParams again = core::Deck::from_text(written, "again.xml").parse(schema).scene;
+    EXPECT_EQ(core::to_xml(schema, Root{again}), written);
+    EXPECT_NO_THROW(membrane_scene(again)) << written;
+  }
+}
+
+TEST(SceneDeck, says_to_which_model_a_case_belongs) {
+  const std::string message = message_of([] {
+    parse("<Parameter name=\"model\" type=\"string\" value=\"obstacle\"/>\n<Parameter name=\"case\" type=\"string\" value=\"disk\"/>\n");
+  });
+  EXPECT_EQ(message, "d.xml:4: scene/case: 'disk' is a case of another model; write model = 'membranes' or take one of its own.");
+}
+
 TEST(SceneDeck, must_say_which_problem_to_solve) {
   EXPECT_EQ(message_of([] { parse(model); }),
             "d.xml:2: scene: nothing says which problem to solve; give a catalogued 'case' or a sublist 'data'.");

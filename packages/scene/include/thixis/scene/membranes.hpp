@@ -42,7 +42,7 @@ struct BoundaryParams {
 /// Block `scene`. Its check wants either a case or data and reports expressions that can not be read.
 struct SceneParams {
   Model model = Model::membranes;
-  std::string case_name;  ///< `case` in the deck; one of cases(), or empty
+  std::optional<std::string> case_name;  ///< `case` in the deck; one of cases()
   std::optional<DataParams> data;
   core::Formula interface;  ///< level set; its zero set are the curves across which data jump
   std::map<std::string, BoundaryParams> boundary;
