@@ -45,7 +45,7 @@ struct Grid {
 ///
 /// One grid makes a plain file; several make a collection in time. Between two calls both files are closed, so that a running series can be
 /// looked at and a killed one leaves what it has written. (The XDMF text lists all grids so far: beyond 128 of them it is renewed
-/// once in a percent of their number, and by close().)
+/// once per 64th of their number, and by close().)
 ///
 /// HDF5: `/mesh_<m>/{points [points][2], triangles [triangles][3]}`, `/fields_<n>/<name> [entities]` or `[entities][3]`, and the attribute
 /// `time` of `/fields_<n>`.
