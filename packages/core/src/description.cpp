@@ -70,6 +70,12 @@ void Description::must_be_new(const std::string& name) const {
 
 void Description::add(Parameter parameter) {
   must_be_new(parameter.name);
+  const auto defaults = make();
+  const auto written = write_value(parameter, defaults.get());
+  std::vector<std::string> complaints;
+  if (written && !parameter.required) read_value(parameter, written->type, written->text, complaints);
+  if (!complaints.empty())
+    throw Error(ExitCode::internal, fmt::format("the default of '{}/{}' is not allowed: {}", name_, parameter.name, complaints.front()));
   parameters_.push_back(std::move(parameter));
   last_is_block_ = false;
 }

@@ -4,6 +4,7 @@
 #include <muParser.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "thixis/core/assert.hpp"
@@ -39,17 +40,47 @@ std::string mistake_of_form(const std::string& text) {
   return "";
 }
 
-std::string reason(const mu::ParserError& error, const mu::Parser& parser, const std::vector<std::string>& names) {
+/// The names in the text; numbers such as 1e-3 are skipped as a whole.
+std::vector<std::string> names_in(const std::string& text) {
+  const auto is_digit = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0 || c == '.'; };
+  const auto is_letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_'; };
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < text.size();) {
+    std::size_t end = i;
+    if (is_digit(text[i])) {
+      while (end < text.size() && is_digit(text[end])) ++end;
+      std::size_t exponent = end + 1;
+      if (exponent < text.size() && (text[exponent] == '+' || text[exponent] == '-')) ++exponent;
+      if (exponent < text.size() && (text[end] == 'e' || text[end] == 'E') && is_digit(text[exponent])) end = exponent;
+      while (end < text.size() && is_digit(text[end])) ++end;
+    } else if (is_letter(text[i])) {
+      while (end < text.size() && (is_letter(text[end]) || (is_digit(text[end]) && text[end] != '.'))) ++end;
+      names.push_back(text.substr(i, end - i));
+    } else {
+      ++end;
+    }
+    i = end;
+  }
+  return names;
+}
+
+/// The first name in the text that means nothing, with the nearest known one. The parser would stumble over what follows the name.
+std::string unknown_name(const std::string& text, const mu::Parser& parser, const std::vector<std::string>& names) {
+  for (const auto& name : names_in(text)) {
+    if (std::find(names.begin(), names.end(), name) != names.end() || parser.GetFunDef().count(name) != 0) continue;
+    std::vector<std::string> known = names;
+    for (const auto& function : parser.GetFunDef()) known.push_back(function.first);
+    const auto near = nearest(name, known);
+    return fmt::format(
+        "has the unknown name '{}'; {}", name,
+        near ? fmt::format("did you mean '{}'?", *near) : fmt::format("known are {} and functions such as sin", join(names)));
+  }
+  return "";
+}
+
+std::string reason(const mu::ParserError& error) {
   const std::string& token = error.GetToken();
   switch (error.GetCode()) {
-    case mu::ecUNASSIGNABLE_TOKEN: {
-      std::vector<std::string> known = names;
-      for (const auto& function : parser.GetFunDef()) known.push_back(function.first);
-      const auto near = nearest(token, known);
-      return fmt::format(
-          "has the unknown name '{}'; {}", token,
-          near ? fmt::format("did you mean '{}'?", *near) : fmt::format("known are {} and functions such as sin", join(names)));
-    }
     case mu::ecUNEXPECTED_EOF:
       return "ends too early; complete it";
     case mu::ecTOO_FEW_PARAMS:
@@ -101,16 +132,14 @@ Expression::Expression(const std::string& text, const std::vector<std::string>& 
   std::vector<std::string> names = variables;
   names.emplace_back("pi");
   for (const auto& constant : constants) names.push_back(constant.first);
+  if (const std::string mistake = unknown_name(text, c.parser, names); !mistake.empty()) throw InputError(sentence(text, mistake));
   try {
     c.parser.SetExpr(text);
     const auto used = c.parser.GetUsedVar();
     for (std::size_t i = 0; i < variables.size(); ++i) c.used[i] = used.count(variables[i]) != 0;
-    for (const auto& name : used)
-      if (std::find(variables.begin(), variables.end(), name.first) == variables.end())
-        throw mu::ParserError(mu::ecUNASSIGNABLE_TOKEN, name.first, text);
     c.parser.Eval();
   } catch (const mu::ParserError& error) {
-    throw InputError(sentence(text, reason(error, c.parser, names)));
+    throw InputError(sentence(text, reason(error)));
   }
   if (c.parser.GetNumResults() != 1) throw InputError(sentence(text, "has a ',' outside of a function; write a decimal point as '.'"));
 }

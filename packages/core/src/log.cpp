@@ -8,6 +8,8 @@
 
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
+#include <filesystem>
 #include <memory>
 #include <vector>
 
@@ -30,6 +32,16 @@ bool on_root() {
   return root;
 }
 
+/// Whether somebody looks at the root's standard output. Open MPI gives its processes a pseudo terminal for standard output (and pipes for
+/// standard error) wherever mpirun itself writes to; then mpirun's own output, the parent's, decides.
+bool on_terminal() {
+  if (isatty(STDOUT_FILENO) == 0) return false;
+  if (isatty(STDERR_FILENO) != 0 || std::getenv("OMPI_COMM_WORLD_SIZE") == nullptr) return true;
+  std::error_code error;
+  const auto target = std::filesystem::read_symlink(fmt::format("/proc/{}/fd/1", getppid()), error).string();
+  return !error && (target.rfind("/dev/pts/", 0) == 0 || target.rfind("/dev/tty", 0) == 0);
+}
+
 std::unique_ptr<spdlog::logger> logger_on(const spdlog::sink_ptr& sink, const char* pattern) {
   auto logger = std::make_unique<spdlog::logger>("thixis", sink);
   logger->set_pattern(pattern);
@@ -40,13 +52,13 @@ std::unique_ptr<spdlog::logger> logger_on(const spdlog::sink_ptr& sink, const ch
 
 struct Log {
   Level level = Level::normal;
-  std::unique_ptr<spdlog::logger> terminal = logger_on(std::make_shared<spdlog::sinks::stdout_color_sink_mt>(), "%^%v%$");
+  std::shared_ptr<spdlog::sinks::stdout_color_sink_mt> output = std::make_shared<spdlog::sinks::stdout_color_sink_mt>();
+  std::unique_ptr<spdlog::logger> terminal = logger_on(output, "%^%v%$");
   std::unique_ptr<spdlog::logger> file;
   std::vector<std::string> lines;  ///< shown so far
   bool bar = false;                ///< a progress bar stands on the terminal's last line
 
-  /// Information is shown without colour.
-  Log() { static_cast<spdlog::sinks::stdout_color_sink_mt&>(*terminal->sinks().front()).set_color(spdlog::level::info, ""); }
+  Log() { output->set_color(spdlog::level::info, ""); }
   void clear_bar() {
     if (bar) std::fputs("\r\033[K", stdout);
     bar = false;
@@ -54,6 +66,7 @@ struct Log {
   void show(spdlog::level::level_enum severity, const std::string& line) {
     if (!on_root()) return;
     clear_bar();
+    output->set_color_mode(on_terminal() ? spdlog::color_mode::automatic : spdlog::color_mode::never);
     terminal->log(severity, line);
     if (file) file->log(severity, line);
     lines.push_back(line);
@@ -107,7 +120,7 @@ Progress::~Progress() {
 void Progress::update(double fraction, const std::string& note) {
   using Seconds = std::chrono::duration<double>;
   constexpr double redraw_after = 0.1;
-  if (the_log().level == Level::quiet || !on_root() || isatty(STDOUT_FILENO) == 0) return;
+  if (the_log().level == Level::quiet || !on_root() || !on_terminal()) return;
   const auto now = std::chrono::steady_clock::now();
   if (the_log().bar && Seconds(now - shown_).count() < redraw_after) return;
   the_log().clear_bar();

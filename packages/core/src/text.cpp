@@ -33,6 +33,12 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
   return row[b.size()];
 }
 
+std::size_t common_beginning(const std::string& a, const std::string& b) {
+  std::size_t length = 0;
+  while (length < std::min(a.size(), b.size()) && a[length] == b[length]) ++length;
+  return length;
+}
+
 std::string trimmed(const std::string& text) {
   constexpr const char* blanks = " \t\r\n";
   const auto begin = text.find_first_not_of(blanks);
@@ -59,11 +65,13 @@ std::optional<T> parsed(const std::string& text) {
 
 std::optional<std::string> nearest(const std::string& name, const std::vector<std::string>& candidates) {
   std::optional<std::string> best;
-  std::size_t least = std::max<std::size_t>(2, name.size() / 3) + 1;
+  std::size_t least = std::max<std::size_t>(2, name.size() / 3) + 1, most_common = 0;
   for (const auto& candidate : candidates) {
-    const std::size_t distance = edit_distance(lower(name), lower(candidate));
+    const std::string a = lower(name), b = lower(candidate);
+    const std::size_t distance = edit_distance(a, b), common = common_beginning(a, b);
+    const bool nearer = distance < least || (best && distance == least && common > most_common);
     // If every letter has to change, the names have nothing in common.
-    if (distance < least && distance < std::max(name.size(), candidate.size())) least = distance, best = candidate;
+    if (nearer && distance < std::max(a.size(), b.size())) least = distance, most_common = common, best = candidate;
   }
   return best;
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <climits>
 #include <cmath>
+#include <type_traits>
 
 #include "thixis/core/text.hpp"
 
@@ -141,6 +142,16 @@ std::string array_text(const std::vector<T>& values, ToText text_of) {
   return array_text(items);
 }
 
+/// An empty text or array where the deck must not hold one: the parameter is not given.
+bool absent(const Range& range, const Value& value) {
+  const auto empty = [&](const auto& x) {
+    if constexpr (std::is_same_v<std::decay_t<decltype(x)>, std::string>) return x.empty() && !range.names.empty();
+    else if constexpr (std::is_arithmetic_v<std::decay_t<decltype(x)>>) return false;
+    else return x.empty() && range.least_entries > 0;
+  };
+  return std::visit(empty, value);
+}
+
 bool finite(const Value& value) {
   if (const auto* x = std::get_if<double>(&value)) return std::isfinite(*x);
   if (const auto* xs = std::get_if<std::vector<double>>(&value))
@@ -237,7 +248,7 @@ std::optional<Value> read_value(const Parameter& parameter, const std::string& t
 
 std::optional<Written> write_value(const Parameter& parameter, const void* object) {
   const auto value = parameter.get(object);
-  if (!value || !finite(*value)) return std::nullopt;
+  if (!value || !finite(*value) || absent(parameter.range, *value)) return std::nullopt;
   const std::string text = std::visit(ToText{}, *value);
   if (parameter.kind != Kind::formula) return Written{types_of(parameter.kind).front(), text};
   if (text.empty()) return std::nullopt;

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cctype>
 #include <map>
 #include <pugixml.hpp>
 
@@ -60,7 +61,12 @@ class XmlReader {
 
   std::optional<Deck::Entry> read_member(const pugi::xml_node& node, const std::string& path) {
     if (node.type() == pugi::node_pcdata || node.type() == pugi::node_cdata) {
-      report(node, path, fmt::format("'{}' stands between the tags; write values as {}.", first_word(node.value()), how_a_parameter_looks));
+      const std::string text = node.value();
+      const auto begin = text.begin(), word = begin + static_cast<std::ptrdiff_t>(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
+      const std::string shown(word,
+                              std::find_if(word, text.end(), [](char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; }));
+      mistakes_.push_back({line(node) + static_cast<int>(std::count(begin, word, '\n')), -1, path,
+                           fmt::format("'{}' stands between the tags; write values as {}.", shown, how_a_parameter_looks)});
       return std::nullopt;
     }
     const std::string element = node.name();
@@ -104,12 +110,6 @@ class XmlReader {
         report(node, path, fmt::format("no such attribute '{}'. {}", name, did_you_mean(name, known)));
       else if (++count[name] == 2) report(node, path, fmt::format("the attribute '{}' stands there twice; remove one of the two.", name));
     }
-  }
-
-  static std::string first_word(const std::string& text) {
-    const auto begin = text.find_first_not_of(" \t\r\n");
-    if (begin == std::string::npos) return text;
-    return text.substr(begin, text.find_first_of(" \t\r\n", begin) - begin);
   }
 
   const Lines& lines_;

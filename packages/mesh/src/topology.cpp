@@ -157,49 +157,4 @@ Mesh make_mesh(const Triangulation& triangulation, const core::Comm& comm) {
   return mesh;
 }
 
-void require_simple_boundary(const Mesh& mesh, const std::string& name) {
-  const HostMesh host = on_host(mesh);
-  const auto& x = host.coordinates;
-  const auto at_vertex = [&](LocalIndex v) {
-    std::ostringstream text;
-    text << '(' << x(v, 0) << ", " << x(v, 1) << ')';
-    return text.str();
-  };
-
-  std::vector<int> degree(mesh.vertices, 0);  // boundary faces at a vertex
-  std::vector<LocalIndex> boundary;
-  for (LocalIndex F = 0; F < mesh.faces; ++F)
-    if (host.face_tag(F) >= 0) {
-      boundary.push_back(F);
-      for (int i = 0; i < 2; ++i)
-        if (++degree[host.face_vertices(F, i)] > 2)
-          throw core::InputError(name + ": the domain touches itself in the vertex " + at_vertex(host.face_vertices(F, i)) +
-                                 "; give a mesh whose boundary is made of simple closed curves.");
-    }
-
-  // A vertex can lie on a face only if both have the same projection on a line; an unlikely direction keeps the candidates few.
-  const double dx = std::cos(1.0), dy = std::sin(1.0);
-  const auto projection = [&](LocalIndex v) { return dx * x(v, 0) + dy * x(v, 1); };
-  std::vector<std::pair<double, LocalIndex>> order;
-  for (LocalIndex v = 0; v < mesh.vertices; ++v)
-    if (degree[v] > 0) order.emplace_back(projection(v), v);
-  std::sort(order.begin(), order.end());
-
-  for (const LocalIndex F : boundary) {
-    const LocalIndex a = host.face_vertices(F, 0), b = host.face_vertices(F, 1);
-    const double ex = x(b, 0) - x(a, 0), ey = x(b, 1) - x(a, 1), length = std::hypot(ex, ey), near = 1e-9 * length;
-    const auto [low, high] = std::minmax(projection(a), projection(b));
-    auto candidate = std::lower_bound(order.begin(), order.end(), std::make_pair(low - near, LocalIndex(-1)));
-    for (; candidate != order.end() && candidate->first <= high + near; ++candidate) {
-      const LocalIndex v = candidate->second;
-      const double vx = x(v, 0) - x(a, 0), vy = x(v, 1) - x(a, 1);
-      const double along = (vx * ex + vy * ey) / length, across = (ex * vy - ey * vx) / length;
-      if (v == a || v == b || std::abs(across) > near || along < -near || along > length + near) continue;
-      const bool at_end = along < near || along > length - near;
-      throw core::InputError(name + (at_end ? ": two nodes of the boundary lie at " : ": a node of the boundary lies inside an edge at ") +
-                             at_vertex(v) + "; give a conforming mesh (in Gmsh: merge duplicate nodes or entities with Coherence).");
-    }
-  }
-}
-
 }  // namespace thixis::mesh

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "meshes.hpp"
+#include "thixis/core/deck.hpp"
 #include "thixis/core/error.hpp"
 #include "thixis/mesh/statistics.hpp"
 
@@ -11,6 +12,16 @@ namespace {
 std::string refusal(const MeshParams& params) {
   try {
     build(params, core::Comm(), ".");
+  } catch (const core::InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+/// What the deck with these parameters in the block is refused with, file and line left out; empty if it is accepted.
+std::string deck_refusal(const std::string& parameters) {
+  try {
+    core::Deck::from_text("<ParameterList name=\"mesh\">\n" + parameters + "</ParameterList>\n", "deck.xml").parse(MeshParams::schema());
   } catch (const core::InputError& error) {
     return error.what();
   }
@@ -85,6 +96,32 @@ TEST(parameters, with_a_file_need_the_generator_file_and_the_other_way_round) {
   params.file = "";
   params.generator = Generator::file;
   EXPECT_EQ(refusal(params), "mesh/file: write the name of a Gmsh mesh, or choose another generator.");
+}
+
+TEST(deck, that_describes_a_mesh_is_read) {
+  const auto deck = core::Deck::from_text(
+      "<ParameterList name=\"mesh\">\n"
+      "<Parameter name=\"generator\" type=\"string\" value=\"rectangle\"/>\n"
+      "<Parameter name=\"cells per side\" type=\"int\" value=\"3\"/>\n"
+      "<Parameter name=\"upper\" type=\"Array(double)\" value=\"{2, 1}\"/>\n"
+      "<Parameter name=\"refinements\" type=\"int\" value=\"1\"/>\n"
+      "</ParameterList>\n",
+      "deck.xml");
+  const Hierarchy hierarchy = build(deck.parse(MeshParams::schema()), core::Comm(), deck.folder());
+  EXPECT_EQ(hierarchy.levels[0].global_cells, 2 * 3 * 6);
+  EXPECT_EQ(hierarchy.finest().global_cells, 2 * 6 * 12);
+}
+
+TEST(deck, with_mistakes_is_refused_before_any_mesh_is_built) {
+  EXPECT_EQ(
+      deck_refusal("<Parameter name=\"cells per side\" type=\"int\" value=\"2\"/>\n"
+                   "<Parameter name=\"upper\" type=\"Array(double)\" value=\"{1, 1.7}\"/>\n"),
+      "deck.xml:2: cells per side: 2 squares along the shorter side are 3.4 along the longer one; write another number, or corners such "
+      "that the longer side is a whole multiple of 0.5.");
+  EXPECT_EQ(deck_refusal("<Parameter name=\"generator\" type=\"string\" value=\"file\"/>\n"),
+            "deck.xml:1: file: write the name of a Gmsh mesh, or choose another generator.");
+  EXPECT_NE(deck_refusal("<Parameter name=\"lower\" type=\"Array(double)\" value=\"{0}\"/>\n"), "");
+  EXPECT_NE(deck_refusal("<Parameter name=\"generator\" type=\"string\" value=\"triangle\"/>\n"), "");
 }
 
 }  // namespace thixis::mesh

@@ -52,7 +52,8 @@ T from_value(const Description::Value& value) {
 }  // namespace detail
 
 /// One block of the deck, described once, next to the struct P that it fills. From it come the reader, `thixis describe`, the reference
-/// page and the sentences of the errors. Defaults are those of a default-constructed P.
+/// page and the sentences of the errors. Defaults are those of a default-constructed P; they must be allowed themselves (core::Error if
+/// not), but an empty array or text stands for "not given" where an empty one is not allowed.
 ///
 ///     static const auto s = core::Schema<NewtonParams>("newton", "How the nonlinear system is solved.")
 ///         .parameter("max iterations", &NewtonParams::max_iterations, core::at_least(0), "Newton steps after which the run gives up.")

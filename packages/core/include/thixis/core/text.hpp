@@ -5,7 +5,8 @@
 
 namespace thixis::core {
 
-/// The candidate nearest to `name` by edit distance without regard to case, if it is near: at most max(2, length/3) edits.
+/// The candidate nearest to `name` by edit distance without regard to case, if it is near: at most max(2, length/3) edits. Among
+/// equally near ones the one with the longest common beginning.
 std::optional<std::string> nearest(const std::string& name, const std::vector<std::string>& candidates);
 /// "Did you mean 'degree'?", or if nothing is near "<otherwise> a, b, c."
 std::string did_you_mean(const std::string& name, const std::vector<std::string>& candidates, const std::string& otherwise = "Valid here:");
