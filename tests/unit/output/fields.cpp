@@ -243,4 +243,26 @@ TEST(fields, of_a_refined_disk_are_left_for_other_readers) {
   read_xdmf("output_" + std::to_string(comm.size()) + "/for_meshio/single");
 }
 
+TEST(fields, can_be_written_on_every_level_of_a_hierarchy) {
+  const core::Comm comm;
+  const std::string folder = scratch("levels");
+  mesh::MeshParams params;
+  params.cells_per_side = 2;
+  params.refinements = 3;
+  params.cells_per_rank = 50;
+  const mesh::Hierarchy hierarchy = mesh::build(params, comm, ".");
+  FieldWriter writer(folder, comm);
+  for (std::size_t level = 0; level < hierarchy.levels.size(); ++level) {
+    const mesh::Mesh& mesh = hierarchy.levels[level];
+    FieldData id{"id", Centre::cell, {}};
+    for (LocalIndex K = 0; K < mesh.cells; ++K) id.values.push_back(static_cast<double>(mesh.cell_id[K]));
+    writer.write(mesh, {id}, static_cast<double>(level));
+    const Array written = read_array(folder + "/fields.h5", "/fields_" + std::to_string(level) + "/id");
+    ASSERT_EQ(written.shape, (std::vector<long long>{mesh.global_cells}));
+    for (GlobalIndex i = 0; i < mesh.global_cells; ++i) EXPECT_EQ(written.values[i], i);
+    comm.barrier();
+  }
+  read_xdmf(folder);
+}
+
 }  // namespace thixis::output

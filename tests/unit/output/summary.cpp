@@ -75,8 +75,8 @@ TEST(summary, is_read_back_as_it_was) {
   s.linear_iterations = 16;
   s.energy_error = 1.0 / 3;
   s.energy_norm = 17;
-  s.estimate = SummaryEstimate{1.5, 1.25, 0.125, 0.0625, {}};
-  s.estimate_published = SummaryEstimate{2.5, 2.25, 0.5, 0.25, {{"oscillation", 1e-300}, {"jumps", 3}}};
+  s.estimate.emplace(SummaryEstimate{1.5, 1.25, 0.125, 0.0625, {}});
+  s.estimate_published.emplace(SummaryEstimate{2.5, 2.25, 0.5, 0.25, {{"oscillation", 1e-300}, {"jumps", 3}}});
   s.effectivity = 1.1;
   s.effectivity_published = 7.3;
   s.kkt.infeasible = 1e-17;
@@ -121,7 +121,7 @@ TEST(summary, has_null_for_numbers_that_are_not_finite) {
   Summary s;
   s.energy_error = NAN;
   s.effectivity = INFINITY;
-  s.estimate = SummaryEstimate{NAN, 1, -INFINITY, 1, {}};
+  s.estimate.emplace(SummaryEstimate{NAN, 1, -INFINITY, 1, {}});
   s.kkt.negative = NAN;
   s.time.mesh = NAN;
   s.memory_mb = NAN;

@@ -41,7 +41,8 @@ struct Grid {
 
 /// Writes `fields.h5` and `fields.xdmf` (XDMF 3, relative paths): one file for all ranks, collectively, in the order of global ids, so
 /// that the arrays do not depend on the number of ranks. All members are collective and throw FileError on all ranks; fields or
-/// grids that contradict themselves are an Error with code `internal`.
+/// grids that contradict themselves are an Error with code `internal`. After an Error and on a full disk the file is as it was before the
+/// call; after another failure of the disk nothing more can be written to it.
 ///
 /// One grid makes a plain file; several make a collection in time. Between two calls both files are closed, so that a running series can be
 /// looked at and a killed one leaves what it has written. (The XDMF text lists all grids so far: beyond 128 of them it is renewed
