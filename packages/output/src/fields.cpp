@@ -18,6 +18,18 @@ namespace {
 
 const std::string data_name = "fields.h5";
 
+/// At most so many bytes does HDF5 add to the numbers themselves: for a group with its first entries, for an array.
+constexpr long long group_bytes = 8192, array_bytes = 4096;
+
+/// Bytes that a grid needs in the file.
+long long room_of(const XdmfGrid& grid, bool new_mesh) {
+  long long room = group_bytes;
+  if (new_mesh) room += group_bytes + 2 * array_bytes + 8 * (2 * grid.points + 3 * grid.triangles);
+  for (const XdmfAttribute& field : grid.attributes)
+    room += array_bytes + 8 * field.columns * (field.centre == Centre::vertex ? grid.points : grid.triangles);
+  return room;
+}
+
 std::vector<GlobalIndex> global_triangles(const Grid& grid) {
   std::vector<GlobalIndex> result;
   result.reserve(3 * grid.triangles.size());
@@ -45,7 +57,7 @@ struct FieldWriter::Impl {
       std::error_code absent;
       std::filesystem::remove(text_path, absent);
     });
-    Hdf5File(data_path, Hdf5File::Mode::create, comm).close();
+    Hdf5File(data_path, Hdf5File::Mode::create, group_bytes, comm).close();
   }
 
   void begin(double time) const {
@@ -65,9 +77,9 @@ struct FieldWriter::Impl {
 
     const SlabExchange points(grid.point_id, grid.point_owner, grid.global_points, "point", comm);
     const SlabExchange triangles(grid.triangle_id, grid.triangle_owner, grid.global_triangles, "triangle", comm);
+    Hdf5File file(data_path, Hdf5File::Mode::extend, room_of(next, new_mesh), comm);
     // Whatever stops the writing now leaves the file in an unknown state.
     open = false;
-    Hdf5File file(data_path, Hdf5File::Mode::extend, comm);
     if (new_mesh) write_mesh(file, fmt::format("/mesh_{}", next.mesh), grid, points, triangles);
     const std::string group = fmt::format("/fields_{}", next.number);
     file.add_group(group);
@@ -85,7 +97,7 @@ struct FieldWriter::Impl {
     if (++grids == 1) single = xdmf_grid(last, data_name, false);
     series += xdmf_grid(last, data_name, true);
     // The text grows with each grid: without these pauses the work would grow with the square of their number.
-    if (grids >= listed + std::max(1, listed / 100) || grids <= 128) list();
+    if (grids >= listed + std::max(1, listed / 64) || grids <= 128) list();
     open = true;
   }
 

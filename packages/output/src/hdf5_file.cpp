@@ -8,7 +8,6 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
-#include <filesystem>
 
 #include "thixis/core/error.hpp"
 
@@ -54,19 +53,26 @@ class Handle {
   herr_t (*close_)(hid_t);
 };
 
-/// What the system says when the root opens the file; MPI-IO would only say that it failed.
-void try_to_open(const std::string& path, Hdf5File::Mode mode) {
+/// Opens the file for the root alone and makes room at its end, which HDF5 cuts off again as far as it is not needed. Says what the system
+/// says; MPI-IO would only say that it failed.
+void make_room(const std::string& path, Hdf5File::Mode mode, long long room) {
   const bool create = mode == Hdf5File::Mode::create;
-  const int file = ::open(path.c_str(), create ? O_CREAT | O_TRUNC | O_WRONLY : O_RDWR, 0666);
+  const int file = ::open(path.c_str(), create ? O_CREAT | O_TRUNC | O_RDWR : O_RDWR, 0666);
   if (file < 0)
     throw core::FileError(fmt::format("The file '{}' can not be {}: {}.", path, create ? "created" : "opened", std::strerror(errno)));
+  const off_t size = ::lseek(file, 0, SEEK_END);
+  const int error = size < 0 ? errno : ::posix_fallocate(file, size, room);
+  const bool refused = error == ENOSPC || error == EFBIG || error == EDQUOT || error == EIO;
+  const bool restored = !refused || ::ftruncate(file, size) == 0;
   ::close(file);
+  if (refused || !restored)
+    throw core::FileError(fmt::format("The file '{}' can not grow by {:.3g} MB: {}.", path, 1e-6 * room, std::strerror(error)));
 }
 
 }  // namespace
 
-Hdf5File::Hdf5File(const std::string& path, Mode mode, const core::Comm& comm) : path_(path), comm_(comm) {
-  comm.on_root([&] { try_to_open(path, mode); });
+Hdf5File::Hdf5File(const std::string& path, Mode mode, long long room, const core::Comm& comm) : path_(path), comm_(comm) {
+  comm.on_root([&] { make_room(path, mode, room); });
   const Quiet quiet;
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_fapl_mpio(access, comm.mpi(), MPI_INFO_NULL);
@@ -87,13 +93,7 @@ Hdf5File::~Hdf5File() {
 
 void Hdf5File::require(bool done, const std::string& what) const {
   if (comm_.all(done)) return;
-  const auto sentence = comm_.on_root([&] {
-    std::error_code unknown;
-    const auto space = std::filesystem::space(std::filesystem::absolute(path_).parent_path(), unknown);
-    const std::string free = unknown ? "" : fmt::format(" ({} MB are free there)", space.available / 1000000);
-    return fmt::format("{} can not be written to '{}'; is the disk full{}, or a quota reached?", what, path_, free);
-  });
-  throw core::FileError(sentence);
+  throw core::FileError(fmt::format("{} can not be written to '{}': there was an error of the disk or of the network.", what, path_));
 }
 
 void Hdf5File::add_group(const std::string& name) {

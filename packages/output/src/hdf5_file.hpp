@@ -10,7 +10,9 @@ namespace thixis::output {
 class Hdf5File {
  public:
   enum class Mode { create, extend };
-  Hdf5File(const std::string& path, Mode mode, const core::Comm& comm);
+  /// `room`: bytes that will be added at most. They are reserved now: on a full disk the file stays as it is (HDF5 would leave it
+  /// damaged, and crash at the end of the program because it can not be closed).
+  Hdf5File(const std::string& path, Mode mode, long long room, const core::Comm& comm);
   /// Closes without complaint.
   ~Hdf5File();
   Hdf5File(const Hdf5File&) = delete;

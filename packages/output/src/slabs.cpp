@@ -55,10 +55,9 @@ SlabExchange::SlabExchange(const std::vector<GlobalIndex>& id, const std::vector
       row -= slab_.begin;
       if (filled[row]++) throw core::Error(core::ExitCode::internal, fmt::format("The {} {} has two owners.", entity, row + slab_.begin));
     }
-    if (static_cast<GlobalIndex>(received_.size()) != slab_.size)
-      throw core::Error(core::ExitCode::internal,
-                        fmt::format("{} of {} {}s have no owner.", slab_.size - static_cast<GlobalIndex>(received_.size()), total, entity));
   });
+  const GlobalIndex missing = comm.sum(slab_.size - static_cast<GlobalIndex>(received_.size()));
+  if (missing != 0) throw core::Error(core::ExitCode::internal, fmt::format("{} of {} {}s have no owner.", missing, total, entity));
 }
 
 template <class T>

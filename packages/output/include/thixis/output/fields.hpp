@@ -41,11 +41,12 @@ struct Grid {
 
 /// Writes `fields.h5` and `fields.xdmf` (XDMF 3, relative paths): one file for all ranks, collectively, in the order of global ids, so
 /// that the arrays do not depend on the number of ranks. All members are collective and throw FileError on all ranks; fields or
-/// grids that contradict themselves are an Error with code `internal`.
+/// grids that contradict themselves are an Error with code `internal`. After an Error and on a full disk the file is as it was before the
+/// call; after another failure of the disk nothing more can be written to it.
 ///
 /// One grid makes a plain file; several make a collection in time. Between two calls both files are closed, so that a running series can be
 /// looked at and a killed one leaves what it has written. (The XDMF text lists all grids so far: beyond 128 of them it is renewed
-/// once in a percent of their number, and by close().)
+/// once per 64th of their number, and by close().)
 ///
 /// HDF5: `/mesh_<m>/{points [points][2], triangles [triangles][3]}`, `/fields_<n>/<name> [entities]` or `[entities][3]`, and the attribute
 /// `time` of `/fields_<n>`.
