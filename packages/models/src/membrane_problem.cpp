@@ -20,10 +20,10 @@ void MembraneProblem::equations(const Vector& X, Vector& R) const {
   split(X, x);
   r.getVectorNonConst(2)->putScalar(0);
   for (int alpha = 0; alpha < 2; ++alpha) {
-    Vector& row = *r.getVectorNonConst(alpha);
-    membranes_.matrix[alpha]->apply(*x.getVector(alpha), row, Teuchos::NO_TRANS, membranes_.factor[alpha], 0);
-    row.elementWiseMultiply(alpha == 0 ? -1 : 1, *membranes_.pairing, *x.getVector(2), 1);
-    row.update(-1, *membranes_.load[alpha], 1);
+    const auto row = r.getVectorNonConst(alpha);
+    membranes_.matrix[alpha]->apply(*x.getVector(alpha), *row, Teuchos::NO_TRANS, membranes_.factor[alpha], 0);
+    row->elementWiseMultiply(alpha == 0 ? -1 : 1, *membranes_.pairing, *x.getVector(2), 1);
+    row->update(-1, *membranes_.load[alpha], 1);
   }
   join(r, R);
 }
