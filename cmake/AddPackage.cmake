@@ -18,6 +18,7 @@ function(thixis_add_package name)
   target_include_directories(thixis_${name}
     PUBLIC $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
     PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src)
+  target_compile_features(thixis_${name} PUBLIC cxx_std_17)
   target_link_libraries(thixis_${name} PUBLIC ${PACKAGE_PUBLIC} PRIVATE ${PACKAGE_PRIVATE} $<BUILD_INTERFACE:thixis_warnings>)
   set_target_properties(thixis_${name} PROPERTIES LAYER ${PACKAGE_LAYER} EXPORT_NAME ${name})
 endfunction()

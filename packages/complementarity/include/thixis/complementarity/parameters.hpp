@@ -38,7 +38,7 @@ struct StoppingParams {
   double linear_tolerance = 1e-10;    ///< eps_alg
   double nonlinear_tolerance = 1e-9;  ///< eps_lin
   double absolute_tolerance = 0;      ///< of the nonlinear residual, in the units of the equations
-  double kkt_tolerance = 1e-6;         ///< what the verifier of the contact conditions lets pass, relative
+  double kkt_tolerance = 1e-6;        ///< what the verifier of the contact conditions lets pass, relative
   double gamma_algebraic = 0.3;
   double gamma_linearization = 0.3;
   double inexact_factor = 0.3;   ///< alpha
