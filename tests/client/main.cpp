@@ -28,7 +28,7 @@ constexpr const char* text = R"(
   <ParameterList name="newton"><Parameter name="start" type="string" value="nested"/></ParameterList>
 </ParameterList>)";
 
-/// Whether the solution is accurate, and the verifier accepts it.
+/// Solves, verifies; whether the verifier accepts the solution, and it is accurate.
 bool solve() {
   namespace drive = thixis::drive;
   const auto deck = thixis::core::Deck::from_text(text, "client");
@@ -39,9 +39,10 @@ bool solve() {
   const drive::Outcome outcome = drive::solve_stationary(*model, hierarchy, params, {});
 
   const auto kkt = thixis::complementarity::verify(outcome.discretization->kkt_data(*outcome.X));
-  const double error = outcome.energy_error.value();
-  std::printf("%lld cells, %d Newton steps, energy error %.2e\n", hierarchy.finest().global_cells, outcome.newton_iterations, error);
-  return outcome.solved && kkt.holds(params.stopping.kkt_tolerance) && error < 0.1 * outcome.energy_norm;
+  const double error = outcome.energy_error.value() / outcome.energy_norm;
+  std::printf("%lld cells, %d Newton steps, relative energy error %.1e. %s\n", hierarchy.finest().global_cells, outcome.newton_iterations,
+              error, kkt.sentence(params.stopping.kkt_tolerance).c_str());
+  return outcome.solved && kkt.holds(params.stopping.kkt_tolerance) && error < 0.2;
 }
 
 }  // namespace
