@@ -48,7 +48,9 @@ const core::Schema<StoppingParams>& StoppingParams::schema() {
           .parameter("absolute tolerance", &Params::absolute_tolerance, core::at_least(0),
                      "Added to the bound of the nonlinear residual, in the units of the equations.")
           .parameter("kkt tolerance", &Params::kkt_tolerance, core::strictly_between(0, 1),
-                     "Largest relative violation of the contact conditions that the verifier lets pass.")
+                     "Largest relative violation of the contact conditions that the verifier lets pass; if not given, 1e-6 or, where that "
+                     "is more, "
+                     "what the nonlinear tolerance allows at one point.")
           .parameter("gamma algebraic", &Params::gamma_algebraic, core::strictly_between(0, 1),
                      "Algebraic error, relative to the larger one of discretization and linearization error.")
           .parameter("gamma linearization", &Params::gamma_linearization, core::strictly_between(0, 1),

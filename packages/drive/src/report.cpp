@@ -31,13 +31,12 @@ Verdict judge(const RunParams& params, const Outcome& outcome, long long cells) 
   const auto missing = missed(params.expect, outcome, cells);
   const std::string clauses = fmt::format("{}", fmt::join(missing, "; "));
   if (outcome.not_wanted) {
-    if (!missing.empty()) return {ExitCode::target_missed, "not solved (max iterations = 0), and expected otherwise: " + clauses + "."};
+    if (!missing.empty()) return {ExitCode::target_missed, "not solved (max iterations = 0), and not as expected: " + clauses + "."};
     return {ExitCode::done, "not solved: max iterations = 0 only counts the unknowns."};
   }
   if (!outcome.solved) return {ExitCode::not_converged, "not converged: " + outcome.finest.why};
-  const double tolerance = params.stopping.kkt_tolerance;
-  if (params.stopping.rule != complementarity::StoppingRule::adaptive && !outcome.kkt->holds(tolerance))
-    return {ExitCode::not_converged, "not converged: Newton stopped, but " + outcome.kkt->sentence(tolerance)};
+  if (params.stopping.rule != complementarity::StoppingRule::adaptive && !outcome.kkt->holds(outcome.kkt_tolerance))
+    return {ExitCode::not_converged, "not converged: Newton stopped, but " + outcome.kkt->sentence(outcome.kkt_tolerance)};
   if (!missing.empty()) return {ExitCode::target_missed, "solved, but not as expected: " + clauses + "."};
   std::string sentence =
       fmt::format("solved in {} Newton steps and {} Krylov iterations", outcome.newton_iterations, outcome.linear_iterations);

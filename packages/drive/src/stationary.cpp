@@ -47,7 +47,11 @@ Outcome solve_stationary(const models::Model& model, const mesh::Hierarchy& hier
   }
 
   const core::Region region("verification");
-  outcome.kkt = complementarity::verify(outcome.discretization->kkt_data(*outcome.X));
+  const auto kkt_data = outcome.discretization->kkt_data(*outcome.X);
+  const double residual =
+      params.stopping.nonlinear_tolerance * outcome.discretization->problem().reference_norm() + params.stopping.absolute_tolerance;
+  outcome.kkt = complementarity::verify(kkt_data);
+  outcome.kkt_tolerance = params.stopping.kkt_tolerance.value_or(kkt_data.allowed(residual));
   outcome.energy_error = outcome.discretization->energy_error(*outcome.X);
   outcome.energy_norm = outcome.discretization->energy_norm(*outcome.X);
   return outcome;

@@ -66,6 +66,15 @@ algebra::LinearReport MembraneProblem::solve(const Vector& R, Vector& dX, const 
   return system_->solve(R, dX, stop);
 }
 
+void MembraneProblem::make_complementary(MultiVector& x) const {
+  const auto fields = x.getLocalViewDevice(Tpetra::Access::ReadWrite);
+  const double theta1 = membranes_.theta[0], theta2 = membranes_.theta[1];
+  Kokkos::parallel_for(
+      "thixis::models::make_complementary", Kokkos::RangePolicy<Vector::execution_space>(0, fields.extent_int(0)), KOKKOS_LAMBDA(int l) {
+        if (fields(l, 2) > 0) fields(l, 0) = fields(l, 1) = theta1 * fields(l, 0) + theta2 * fields(l, 1);
+      });
+}
+
 double MembraneProblem::reference_norm() const { return std::hypot(membranes_.load[0]->norm2(), membranes_.load[1]->norm2()); }
 
 GlobalIndex MembraneProblem::rows() const {

@@ -122,6 +122,7 @@ class MembraneDiscretization final : public Discretization {
       const auto u = coarse.space_->complete(*coarse_x.getVector(field), field < 2 ? coarse.lift_[field] : coarse.nothing());
       space_->prolongate(*coarse.space_, u, *x.getVectorNonConst(field));
     }
+    problem_->make_complementary(x);
     return joined(x);
   }
 
@@ -163,6 +164,7 @@ class MembraneDiscretization final : public Discretization {
       defect.elementWiseMultiply(1, inverse, *body_[alpha], 0);
       data.multiplier_scale = std::max({data.multiplier_scale, multiplier->normInf(), defect.normInf()});
     }
+    data.smallest_pairing = 1 / inverse.normInf();
     if (!(data.gap_scale > 0)) data.gap_scale = 1;
     if (!(data.multiplier_scale > 0)) data.multiplier_scale = 1;
     return data;

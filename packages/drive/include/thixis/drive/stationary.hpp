@@ -36,6 +36,7 @@ struct Outcome {
   complementarity::NewtonReport finest;
   int newton_iterations = 0, linear_iterations = 0;  ///< on all levels
   std::optional<complementarity::Kkt> kkt;
+  double kkt_tolerance = 0;  ///< what the verifier lets pass
   std::optional<double> energy_error;
   double energy_norm = 0;
 };
