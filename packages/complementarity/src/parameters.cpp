@@ -29,7 +29,11 @@ const core::Schema<NewtonParams>& NewtonParams::schema() {
           .parameter("tie tolerance", &NewtonParams::tie_tolerance, core::between(0, 1e-3),
                      "Gap and scaled multiplier count as equal up to this part of the largest of them.")
           .choice("scaling", &NewtonParams::scaling, {{"none", Scaling::none}, {"physical", Scaling::physical}},
-                  "Compare the gap with the multiplier itself, or with the multiplier scaled to a length.");
+                  "Compare the gap with the multiplier itself, or with the multiplier scaled to a length.")
+          .parameter(
+              "sweeps", &NewtonParams::sweeps, core::at_least(0),
+              "Sweeps of nonlinear smoothing after each undamped step of c-function min; if not given, 10 with nested starts, otherwise "
+              "none, which is plain Newton-min.");
   return s;
 }
 

@@ -28,6 +28,9 @@ Outcome solve_stationary(const models::Model& model, const mesh::Hierarchy& hier
   const int finest = static_cast<int>(hierarchy.levels.size()) - 1;
   const bool nested = params.newton.start == complementarity::Start::nested && !outcome.not_wanted;
 
+  complementarity::NewtonParams newton = params.newton;
+  if (!newton.sweeps) newton.sweeps = nested ? 10 : 0;
+
   for (int level = nested ? 0 : finest; level <= finest; ++level) {
     auto discretization = model.discretize(hierarchy.levels[level]);
     const auto X =
@@ -38,8 +41,8 @@ Outcome solve_stationary(const models::Model& model, const mesh::Hierarchy& hier
     if (observer.level) observer.level(hierarchy.levels[level], level, outcome.discretization->sizes());
     if (outcome.not_wanted) return outcome;
 
-    outcome.finest = complementarity::newton(outcome.discretization->problem(), *X, params.newton, params.stopping,
-                                             params.linear.check_every, on_level(level, observer));
+    outcome.finest = complementarity::newton(outcome.discretization->problem(), *X, newton, params.stopping, params.linear.check_every,
+                                             on_level(level, observer));
     outcome.newton_iterations += outcome.finest.steps;
     outcome.linear_iterations += outcome.finest.linear_iterations;
     outcome.solved = outcome.finest.converged;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "full_system.hpp"
+#include "projected_jacobi.hpp"
 #include "reduced_system.hpp"
 #include "thixis/core/timer.hpp"
 
@@ -64,6 +65,13 @@ void MembraneProblem::linearize(const Vector&, const Vector& a, const Vector& b)
 
 algebra::LinearReport MembraneProblem::solve(const Vector& R, Vector& dX, const algebra::LinearStop& stop) {
   return system_->solve(R, dX, stop);
+}
+
+void MembraneProblem::relax(Vector& X, int sweeps) const {
+  MultiVector x(membranes_.map(), 3);
+  split(X, x);
+  projected_jacobi(membranes_, sweeps, x);
+  join(x, X);
 }
 
 void MembraneProblem::make_complementary(MultiVector& x) const {

@@ -27,6 +27,7 @@ struct NewtonParams {
   Ties ties = Ties::contact;
   double tie_tolerance = 0;
   Scaling scaling = Scaling::physical;
+  std::optional<int> sweeps;  ///< of nonlinear smoothing after a step; not given: 10 in nested runs, otherwise none
   static const core::Schema<NewtonParams>& schema();
 };
 
