@@ -136,6 +136,7 @@ void Hdf5File::add_rows(const std::string& name, const Slab& slab, int columns, 
   const std::string what = fmt::format("The array '{}'", name);
   const Handle array(H5Dcreate2(file_, name.c_str(), stored, file_space, H5P_DEFAULT, creation, H5P_DEFAULT), H5Dclose);
   require(array.valid(), what);
+  if (slab.total == 0) return;  // HDF5 refuses to write nothing
 
   const Handle transfer(H5Pcreate(H5P_DATASET_XFER), H5Pclose);
   H5Pset_dxpl_mpio(transfer, H5FD_MPIO_COLLECTIVE);
