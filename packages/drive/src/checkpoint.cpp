@@ -55,7 +55,8 @@ double seconds_of(const output::StoredCheckpoint& stored) { return stored.attrib
 
 bool same_directory(const output::StoredCheckpoint& stored, const std::string& directory) {
   const auto before = core::Deck::from_text(stored.deck(), stored.path()).parse(RunParams::schema()).output.directory;
-  return absolute(directory) == absolute(before);
+  const std::string now = absolute(directory + "/");
+  return now == absolute(before + "/") || now == absolute(fs::absolute(stored.path()).parent_path().string() + "/");
 }
 
 void check_restart(const output::StoredCheckpoint& stored, const RunParams& params, const mesh::Hierarchy& hierarchy) {

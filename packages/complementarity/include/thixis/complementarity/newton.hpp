@@ -32,9 +32,9 @@ struct LinearRecord {
 /// Who wants to know; each function may be empty. Called on all ranks with equal values.
 struct NewtonObserver {
   std::function<void(const NewtonRecord&)> step;
-  std::function<void(const algebra::Vector& X)> iterate;  ///< X^k, after `step`
   std::function<void(const LinearRecord&)> linear;
-  std::function<void(const std::string&)> message;  ///< a sentence for the log: fallbacks, failed linear solves
+  std::function<void(const std::string&)> message;        ///< a sentence for the log: fallbacks, failed linear solves
+  std::function<void(const algebra::Vector& X)> iterate;  ///< X^k, after `step`
 };
 
 struct NewtonReport {
