@@ -1,4 +1,4 @@
-/// thixis: the command line (run, check, describe, cases).
+/// thixis: the command line (run, restart, check, describe, cases).
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
@@ -10,6 +10,7 @@
 #include "thixis/core/deck.hpp"
 #include "thixis/core/log.hpp"
 #include "thixis/drive/run.hpp"
+#include "thixis/output/checkpoint.hpp"
 #include "versions.hpp"
 
 namespace thixis {
@@ -22,9 +23,8 @@ struct Arguments {
   core::Format format = core::Format::text;
 };
 
-/// The deck with its overrides, everything judged that needs no mesh.
-std::pair<core::Deck, drive::RunParams> read_deck(const Arguments& arguments, const core::Comm& comm) {
-  auto deck = core::Deck::read(arguments.deck, comm);
+/// A deck with its overrides, everything judged that needs no mesh.
+std::pair<core::Deck, drive::RunParams> judged(core::Deck deck, const Arguments& arguments) {
   for (const auto& assignment : arguments.overrides) deck.set(assignment);
   auto params = deck.parse(drive::RunParams::schema());
   if (!arguments.output.empty()) params.output.directory = arguments.output;
@@ -33,10 +33,21 @@ std::pair<core::Deck, drive::RunParams> read_deck(const Arguments& arguments, co
   return {std::move(deck), std::move(params)};
 }
 
+std::pair<core::Deck, drive::RunParams> read_deck(const Arguments& arguments, const core::Comm& comm) {
+  return judged(core::Deck::read(arguments.deck, comm), arguments);
+}
+
 core::ExitCode run(const Arguments& arguments, const core::Comm& comm) {
   const auto [deck, params] = read_deck(arguments, comm);
   const auto model = make_model(params);
   return drive::run(params, *model, deck, comm, versions());
+}
+
+core::ExitCode restart(const Arguments& arguments, const core::Comm& comm) {
+  const auto stored = output::read_checkpoint(arguments.deck, comm);
+  const auto [deck, params] = judged(core::Deck::from_text(stored.deck(), stored.path(), stored.folder()), arguments);
+  const auto model = make_model(params);
+  return drive::run(params, *model, deck, comm, versions(), &stored);
 }
 
 core::ExitCode check(const Arguments& arguments, const core::Comm& comm) {
@@ -73,6 +84,7 @@ core::ExitCode dispatch(int argc, char** argv, const core::Comm& comm) {
       "Thixis solves problems with contact and other inequality constraints.\n\n"
       "  thixis run inputs/membranes/disk.xml                      solve a deck\n"
       "  mpirun -n 4 thixis run DECK --set mesh/refinements=5      on four ranks, one parameter changed\n"
+      "  thixis restart results/disk/checkpoint.h5                 go on from where a run ended, on any number of ranks\n"
       "  thixis check DECK                                         judge a deck without solving it\n"
       "  thixis describe newton                                    every parameter of a block\n"
       "  thixis describe --format xml > new.xml                    a deck to start from\n\n"
@@ -87,15 +99,26 @@ core::ExitCode dispatch(int argc, char** argv, const core::Comm& comm) {
     sub->callback([&command, action] { command = action; });
     return sub;
   };
+  const auto add_overrides = [&](CLI::App* sub) {
+    sub->add_option("--set", arguments.overrides, "PATH=VALUE: override one parameter, e.g. --set method/degree=3")->take_all();
+  };
   const auto add_deck = [&](CLI::App* sub) {
     sub->add_option("deck", arguments.deck, "The deck (XML)")->required();
-    sub->add_option("--set", arguments.overrides, "PATH=VALUE: override one parameter, e.g. --set method/degree=3")->take_all();
+    add_overrides(sub);
+  };
+  const auto add_verbosity = [&](CLI::App* sub) {
+    sub->add_flag("--quiet", arguments.quiet, "Show the verdict only");
+    sub->add_flag("--verbose", arguments.verbose, "Show details")->excludes("--quiet");
   };
   CLI::App* solve = add("run", "Solve a deck and write the results", run);
   add_deck(solve);
   solve->add_option("--output", arguments.output, "Folder of the results (default: results/<name of the deck>)");
-  solve->add_flag("--quiet", arguments.quiet, "Show the verdict only");
-  solve->add_flag("--verbose", arguments.verbose, "Show details")->excludes("--quiet");
+  add_verbosity(solve);
+  CLI::App* resume = add("restart", "Go on from a checkpoint, on any number of ranks", restart);
+  resume->add_option("checkpoint", arguments.deck, "The checkpoint.h5 of a run")->required();
+  add_overrides(resume);
+  resume->add_option("--output", arguments.output, "Folder of the results (default: that of the interrupted run)");
+  add_verbosity(resume);
   add_deck(add("check", "Judge a deck without solving it; all mistakes at once", check));
   CLI::App* explain = add("describe", "Every parameter: type, default, range, one sentence", describe);
   explain->add_option("block", arguments.block, "A block of the deck, e.g. newton or newton/initial (default: all)");

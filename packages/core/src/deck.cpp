@@ -60,9 +60,10 @@ Deck Deck::read(const std::string& path, const Comm& comm) {
   return from_text(comm.on_root([&] { return text_of_file(path); }), path);
 }
 
-Deck Deck::from_text(const std::string& text, const std::string& name) {
+Deck Deck::from_text(const std::string& text, const std::string& name, const std::string& folder) {
   Deck deck;
   deck.file_ = name;
+  deck.folder_ = folder;
   deck.root_ = read_xml(text, name, deck.mistakes_);
   return deck;
 }
@@ -132,7 +133,7 @@ bool Deck::given(const std::string& path) const {
 }
 
 std::string Deck::folder() const {
-  const std::string folder = std::filesystem::path(file_).parent_path().string();
+  const std::string folder = !folder_.empty() ? folder_ : std::filesystem::path(file_).parent_path().string();
   return folder.empty() ? "." : folder;
 }
 

@@ -86,6 +86,18 @@ void check_field_names(const std::vector<std::string>& names) {
           fmt::format("output/fields: there is no field '{}'; write all, none, or some of {}.", name, fmt::join(known_fields, ", ")));
 }
 
+const char* const unknown_fields[] = {"u1", "u2", "lambda"};
+
+void check_size(const output::StoredCheckpoint& stored, const std::string& block, GlobalIndex unknowns) {
+  const GlobalIndex saved = stored.size(block);
+  if (saved == unknowns) return;
+  throw core::InputError(
+      fmt::format("The checkpoint '{}' belongs to another model, mesh or method: it holds {}, the deck asks for {}; leave scene/model, "
+                  "mesh, method and "
+                  "the kinds of the boundary as they were.",
+                  stored.path(), saved < 0 ? fmt::format("no '{}'", block) : fmt::format("{} values of '{}'", saved, block), unknowns));
+}
+
 class MembraneDiscretization final : public Discretization {
  public:
   MembraneDiscretization(const scene::MembraneScene& scene, const method::SpaceFactory& make_space, const method::MethodParams& method,
@@ -123,6 +135,33 @@ class MembraneDiscretization final : public Discretization {
       space_->prolongate(*coarse.space_, u, *x.getVectorNonConst(field));
     }
     problem_->make_complementary(x);
+    return joined(x);
+  }
+
+  std::vector<output::CheckpointBlock> save(const Vector& X) const override {
+    MultiVector x(space_->map(), 3);
+    split(X, x);
+    const auto ids = space_->unknown_ids();
+    std::vector<output::CheckpointBlock> blocks;
+    for (int field = 0; field < 3; ++field) {
+      const auto column = x.getVector(field);
+      const auto values = algebra::host_view(*column);
+      blocks.push_back({unknown_fields[field], ids, {values.data(), values.data() + values.extent(0)}});
+    }
+    return blocks;
+  }
+
+  Teuchos::RCP<Vector> restore(const output::StoredCheckpoint& stored) const override {
+    const auto unknowns = static_cast<GlobalIndex>(space_->map()->getGlobalNumElements());
+    const auto ids = space_->unknown_ids();
+    MultiVector x(space_->map(), 3);
+    for (int field = 0; field < 3; ++field) {
+      check_size(stored, unknown_fields[field], unknowns);
+      const auto values = stored.fetch(unknown_fields[field], ids);
+      const auto column = x.getVectorNonConst(field);
+      const auto out = algebra::host_overwrite(*column);
+      std::copy(values.begin(), values.end(), out.data());
+    }
     return joined(x);
   }
 

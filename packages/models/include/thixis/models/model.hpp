@@ -8,6 +8,7 @@
 #include "thixis/complementarity/kkt.hpp"
 #include "thixis/complementarity/problem.hpp"
 #include "thixis/mesh/mesh.hpp"
+#include "thixis/output/checkpoint.hpp"
 #include "thixis/output/fields.hpp"
 
 namespace thixis::models {
@@ -31,6 +32,11 @@ class Discretization {
   virtual Teuchos::RCP<algebra::Vector> cold_start() const = 0;
   /// X0 from the solution on the next coarser mesh of the hierarchy.
   virtual Teuchos::RCP<algebra::Vector> nested_start(const Discretization& coarse, const algebra::Vector& coarse_X) const = 0;
+
+  /// X as named values whose ids do not depend on the number of ranks (method::Space::unknown_ids); Dirichlet values are left out.
+  virtual std::vector<output::CheckpointBlock> save(const algebra::Vector& X) const = 0;
+  /// The X that was saved, exactly, on any number of ranks. Collective. Throws InputError if it belongs to another model, mesh or method.
+  virtual Teuchos::RCP<algebra::Vector> restore(const output::StoredCheckpoint& stored) const = 0;
 
   /// |||u - u_h|||, if the exact solution is known, and |||u_h|||.
   virtual std::optional<double> energy_error(const algebra::Vector& X) const = 0;
