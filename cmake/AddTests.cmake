@@ -2,7 +2,10 @@
 #
 # One executable test_<package> with GoogleTest, run as a whole on each of the rank counts (default: 1). Sources see the private
 # headers of the package, too.
-find_package(GTest REQUIRED)
+find_package(GTest)
+if(NOT GTest_FOUND)
+  message(FATAL_ERROR "The tests need GoogleTest (Debian: libgtest-dev); to build without them, set THIXIS_TESTS to OFF.")
+endif()
 set(THIXIS_MPI_ENVIRONMENT OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1
   OMPI_MCA_btl_vader_single_copy_mechanism=none OMPI_MCA_hwloc_base_binding_policy=none OMPI_MCA_mpi_yield_when_idle=1 ASAN_OPTIONS=detect_leaks=0)
 

@@ -1,62 +1,77 @@
 # Shared by ./run and ./test: installs what is missing and builds. Sourced with the project's root as the working folder.
 
+fail() {
+  echo "thixis: $*" >&2
+  exit 1
+}
+
+# Without apt nothing can be installed: says which programs must be.
+need_programs() {
+  local tool absent=()
+  for tool in "${CXX:-g++}" cmake ninja mpirun; do command -v "$tool" >/dev/null 2>&1 || absent+=("$tool"); done
+  [ ${#absent[@]} -eq 0 ] || fail "this machine has no apt, and these programs are missing: ${absent[*]}. Install them, and the" \
+    "libraries that correspond to the Debian packages of $*, by hand; then try again."
+}
+
 # Installs the Debian packages named in the given lists, as far as they are missing.
 install_missing() {
-  local missing
   if ! command -v dpkg-query >/dev/null 2>&1 || ! command -v apt-get >/dev/null 2>&1; then
-    local tool absent=()
-    for tool in g++ cmake ninja mpirun; do command -v "$tool" >/dev/null 2>&1 || absent+=("$tool"); done
-    if [ ${#absent[@]} -gt 0 ]; then
-      echo "thixis: this machine has no apt, and these programs are missing: ${absent[*]}. Install them and the libraries that correspond to the Debian packages of $* by hand, then try again." >&2
-      exit 1
-    fi
+    need_programs "$@"
     return 0
   fi
-  missing=$(cat "$@" | sed 's/#.*//' | while read -r package; do
-    [ -n "$package" ] || continue
-    dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'install ok installed' || echo "$package"
-  done)
+  local wanted missing sudo=() log=build/apt.log
+  wanted=$(sed 's/#.*//' "$@" | sort -u)
+  missing=$(comm -23 <(printf '%s\n' $wanted) \
+    <({ dpkg-query -W -f='${db:Status-Status} ${Package}\n' $wanted 2>/dev/null || true; } | sed -n 's/^installed //p' | sort -u) | tr '\n' ' ')
   [ -n "$missing" ] || return 0
-  local sudo=""
   if [ "$(id -u)" != 0 ]; then
-    if ! command -v sudo >/dev/null 2>&1; then
-      echo "thixis: these Debian packages are missing, and neither root nor sudo is at hand to install them:" $missing >&2
-      exit 1
-    fi
-    sudo=sudo
+    command -v sudo >/dev/null 2>&1 || fail "these Debian packages are missing, and neither root nor sudo is at hand to install them: $missing"
+    sudo=(sudo)
   fi
-  echo "thixis: installing $(echo "$missing" | wc -l) missing packages" >&2
+  echo "thixis: installing $(echo $missing | wc -w) missing Debian packages and what they need" >&2
+  mkdir -p build
   {
-    $sudo apt-get update -qq &&
-      $sudo env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $missing
-  } >apt.log 2>&1 || {
-    echo "thixis: apt could not install:" $missing >&2
-    tail -n 5 apt.log >&2
-    rm -f apt.log
-    exit 1
+    "${sudo[@]}" apt-get update -qq || echo "apt-get update failed; the lists at hand must do."
+    "${sudo[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $missing
+  } >"$log" 2>&1 </dev/null || {
+    tail -n 5 "$log" >&2
+    fail "apt could not install: $missing(the whole output is in $log)."
   }
-  rm -f apt.log
 }
 
-# Configures (only when needed) and builds the given targets with preset `release`; further CMake settings in $THIXIS_CMAKE.
+# Whether the build folder is configured with all of these settings -DNAME=VALUE.
+configured_with() {
+  local setting
+  [ -f build/release/build.ninja ] || return 1
+  for setting in "$@"; do
+    grep -qxF -e "$setting" <(sed 's/^/-D/; s/:[A-Z]*=/=/' build/release/CMakeCache.txt) || return 1
+  done
+}
+
+# configure [-DNAME=VALUE...]: preset `release` with these settings and those in $THIXIS_CMAKE, unless that is how it is configured.
+configure() {
+  local log=build/release/configure.log
+  configured_with "$@" ${THIXIS_CMAKE:-} && return 0
+  mkdir -p build/release
+  cmake --preset release "$@" ${THIXIS_CMAKE:-} >"$log" 2>&1 </dev/null || {
+    grep -A 5 'CMake Error' "$log" | head -n 20 >&2
+    fail "the configuration failed; the whole output is in $log."
+  }
+}
+
+# Builds the given targets.
 build() {
-  local folder=build/release log=build/release/build.log
-  mkdir -p "$folder"
-  if [ ! -f "$folder/build.ninja" ] || [ -n "${THIXIS_CMAKE:-}" ]; then
-    cmake --preset release ${THIXIS_CMAKE:-} >"$folder/configure.log" 2>&1 || {
-      tail -n 20 "$folder/configure.log" >&2
-      echo "thixis: the configuration failed; the whole output is in $folder/configure.log." >&2
-      exit 1
-    }
-  fi
-  if [ -n "$(ninja -C "$folder" -n "$@" 2>/dev/null | grep -v 'no work to do' | grep '^\[')" ]; then
+  local log=build/release/build.log
+  # One file, the version, is looked at in every build.
+  if [ "$(ninja -C build/release -n "$@" 2>/dev/null | grep -c 'Building CXX')" -gt 1 ]; then
     echo "thixis: building (the first time takes some minutes)" >&2
   fi
-  ninja -C "$folder" "$@" >"$log" 2>&1 || {
-    grep -E 'error|FAILED' "$log" | head -n 20 >&2
-    echo "thixis: the build failed; the whole output is in $log." >&2
-    exit 1
+  ninja -C build/release "$@" >"$log" 2>&1 </dev/null || {
+    grep -E 'error:|FAILED|CMake Error|undefined reference|cannot find' "$log" | head -n 20 >&2
+    fail "the build failed; the whole output is in $log."
   }
 }
 
+# As root, on more ranks than cores, inside containers: all this is allowed.
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+export OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_btl_vader_single_copy_mechanism=none OMPI_MCA_hwloc_base_binding_policy=none

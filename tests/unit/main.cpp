@@ -1,6 +1,7 @@
 /// Runs the unit tests of one package inside MPI and Kokkos; a failure on any rank fails the run on all.
-#include <Tpetra_Core.hpp>
 #include <gtest/gtest.h>
+
+#include <Tpetra_Core.hpp>
 
 int main(int argc, char** argv) {
   ::testing::InitGoogleTest(&argc, argv);

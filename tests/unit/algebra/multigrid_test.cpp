@@ -19,7 +19,7 @@ int iterations(const Row& row, int n, int fields, const Teuchos::RCP<const Multi
   LinearStop stop;
   stop.tolerance = 1e-10 * norm2(b);
   const LinearReport report = solver.solve(b, x, stop);
- 
+
   EXPECT_TRUE(report.converged) << report.reason;
   EXPECT_LE(true_residual(*A, b, x), stop.tolerance);
   ::testing::Test::RecordProperty("iterations_" + std::to_string(n), report.iterations);
