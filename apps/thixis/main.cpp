@@ -3,12 +3,14 @@
 
 #include <CLI/CLI.hpp>
 #include <Tpetra_Core.hpp>
+#include <algorithm>
 #include <cstdio>
 
 #include "registry.hpp"
 #include "thixis/core/assert.hpp"
 #include "thixis/core/deck.hpp"
 #include "thixis/core/log.hpp"
+#include "thixis/core/text.hpp"
 #include "thixis/drive/run.hpp"
 #include "thixis/output/checkpoint.hpp"
 #include "versions.hpp"
@@ -23,38 +25,43 @@ struct Arguments {
   core::Format format = core::Format::text;
 };
 
-/// A deck with its overrides, everything judged that needs no mesh.
-std::pair<core::Deck, drive::RunParams> judged(core::Deck deck, const Arguments& arguments) {
+/// f(deck, params, model) with the deck and its overrides, after everything is judged that needs no mesh. What shows only later gets its
+/// place in the deck, too.
+template <class F>
+core::ExitCode with_deck(core::Deck deck, const Arguments& arguments, F f) {
   for (const auto& assignment : arguments.overrides) deck.set(assignment);
   auto params = deck.parse(drive::RunParams::schema());
   if (!arguments.output.empty()) params.output.directory = arguments.output;
   if (params.output.directory.empty()) params.output.directory = "results/" + deck.stem();
-  drive::check_served(params);
-  return {std::move(deck), std::move(params)};
-}
-
-std::pair<core::Deck, drive::RunParams> read_deck(const Arguments& arguments, const core::Comm& comm) {
-  return judged(core::Deck::read(arguments.deck, comm), arguments);
+  try {
+    drive::check_served(params);
+    return f(deck, params, *make_model(params));
+  } catch (const core::Error& error) {
+    throw deck.located(error);
+  }
 }
 
 core::ExitCode run(const Arguments& arguments, const core::Comm& comm) {
-  const auto [deck, params] = read_deck(arguments, comm);
-  const auto model = make_model(params);
-  return drive::run(params, *model, deck, comm, versions());
+  return with_deck(core::Deck::read(arguments.deck, comm), arguments,
+                   [&](const core::Deck& deck, const drive::RunParams& params, const models::Model& model) {
+                     return drive::run(params, model, deck, comm, versions());
+                   });
 }
 
 core::ExitCode restart(const Arguments& arguments, const core::Comm& comm) {
   const auto stored = output::read_checkpoint(arguments.deck, comm);
-  const auto [deck, params] = judged(core::Deck::from_text(stored.deck(), stored.path(), stored.folder()), arguments);
-  const auto model = make_model(params);
-  return drive::run(params, *model, deck, comm, versions(), &stored);
+  return with_deck(core::Deck::from_text(stored.deck(), stored.path(), stored.folder()), arguments,
+                   [&](const core::Deck& deck, const drive::RunParams& params, const models::Model& model) {
+                     return drive::run(params, model, deck, comm, versions(), &stored);
+                   });
 }
 
 core::ExitCode check(const Arguments& arguments, const core::Comm& comm) {
-  const auto [deck, params] = read_deck(arguments, comm);
-  make_model(params);
-  core::log::info("{}: no mistakes found.", deck.file());
-  return core::ExitCode::done;
+  return with_deck(core::Deck::read(arguments.deck, comm), arguments,
+                   [](const core::Deck& deck, const drive::RunParams&, const models::Model&) {
+                     core::log::info("{}: no mistakes found.", deck.file());
+                     return core::ExitCode::done;
+                   });
 }
 
 core::ExitCode describe(const Arguments& arguments, const core::Comm&) {
@@ -72,6 +79,15 @@ std::string version_text() {
   std::string text;
   for (const auto& [name, version] : versions()) text += fmt::format("{}{:<16}{}", text.empty() ? "" : "\n", name, version);
   return text;
+}
+
+/// What is wrong with a command line that names no command: CLI11 only says that one is required.
+std::string without_command(const CLI::App& app, int argc, char** argv) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) names.push_back(command->get_name());
+  const char* const* word = std::find_if(argv + 1, argv + argc, [](const char* argument) { return argument[0] != '-'; });
+  if (word == argv + argc) return "a command is missing; write one of " + core::join(names) + ".";
+  return fmt::format("no such command '{}'. {}", *word, core::did_you_mean(*word, names, "Write one of"));
 }
 
 /// Parses the command line and does what it says.
@@ -133,7 +149,9 @@ core::ExitCode dispatch(int argc, char** argv, const core::Comm& comm) {
     if (comm.root()) app.exit(wanted);
     return core::ExitCode::done;
   } catch (const CLI::ParseError& mistake) {
-    throw core::InputError(fmt::format("thixis: {}\nRun 'thixis --help' for the commands and options.", mistake.what()));
+    const bool no_command = dynamic_cast<const CLI::RequiredError*>(&mistake) != nullptr && app.get_subcommands().empty();
+    throw core::InputError(fmt::format("thixis: {}\nRun 'thixis --help' for the commands and options.",
+                                       no_command ? without_command(app, argc, argv) : mistake.what()));
   }
   if (arguments.quiet) core::log::set_level(core::log::Level::quiet);
   if (arguments.verbose) core::log::set_level(core::log::Level::verbose);

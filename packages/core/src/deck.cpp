@@ -126,6 +126,18 @@ InputError Deck::error(const std::string& path, const std::string& sentence) con
   return InputError(message({place.line, place.assignment, path, sentence}));
 }
 
+Error Deck::located(const Error& error) const {
+  std::istringstream stream(error.what());
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(stream, line);) {
+    const auto colon = line.find(": ");
+    const std::string path = line.substr(0, colon);
+    const bool of_the_deck = colon != std::string::npos && root_.find(path.substr(0, path.find('/')), true) != nullptr;
+    lines.push_back(of_the_deck ? this->error(path, line.substr(colon + 2)).what() : line);
+  }
+  return {error.code(), join(lines, "\n")};
+}
+
 bool Deck::given(const std::string& path) const {
   bool exact = false;
   root_.along(path, exact);

@@ -168,12 +168,13 @@ output::Summary summarize(const RunParams& params, const models::Model& model, c
 }  // namespace
 
 void check_served(const RunParams& params) {
+  const std::string no_estimate = " needs an error estimate, which this version does not compute; ";
   if (params.stopping.rule == complementarity::StoppingRule::adaptive)
-    throw core::InputError("stopping/rule: adaptive needs an error estimate, which this version does not compute; write exact or inexact.");
-  if (params.stopping.estimate.value_or(false) || params.stopping.target || params.expect.effectivity_between)
-    throw core::InputError(
-        "stopping/estimate, stopping/target and expect/effectivity between need an error estimate, which this version does not compute; "
-        "leave them out.");
+    throw core::InputError("stopping/rule: adaptive" + no_estimate + "write exact or inexact.");
+  if (params.stopping.estimate.value_or(false))
+    throw core::InputError("stopping/estimate: this" + no_estimate + "write false or leave it out.");
+  if (params.stopping.target) throw core::InputError("stopping/target: this" + no_estimate + "leave it out.");
+  if (params.expect.effectivity_between) throw core::InputError("expect/effectivity between: this" + no_estimate + "leave it out.");
   if (params.linear.solver == algebra::SolverKind::cg && params.linear.form == algebra::SystemForm::full)
     throw core::InputError(
         "linear/solver: the full system is not symmetric, so cg can not solve it; write form = reduced, or solver = gmres.");

@@ -32,6 +32,9 @@ class Deck {
 
   /// The error of a value that shows only later: "<file>:<line>: <path>: <sentence>" with the line of the nearest entry that is given.
   InputError error(const std::string& path, const std::string& sentence) const;
+  /// The same error with file and line in front of every line that begins with the path of an entry in a block that is given: "mesh/file:
+  /// ..." becomes "inputs/x.xml:9: mesh/file: ...". For what shows only later, thrown where the deck is not at hand.
+  Error located(const Error& error) const;
   /// Whether the parameter or block at `path` is given.
   bool given(const std::string& path) const;
 

@@ -54,7 +54,8 @@ class Model {
   virtual ~Model() = default;
   virtual std::string name() const = 0;
   virtual std::string case_name() const = 0;  ///< empty for data of the user
-  /// Throws InputError for what only a mesh shows: unknown boundary tags, boundary data that contradict each other, unknown field names.
+  /// Throws InputError for what only a mesh shows: unknown boundary tags, boundary data that contradict each other, tensions that are not
+  /// positive and data that are not finite somewhere, unknown field names.
   /// Collective; to be asked before anything is computed or written.
   virtual void check(const mesh::Mesh& mesh, const std::vector<std::string>& field_names) const = 0;
   virtual std::unique_ptr<Discretization> discretize(const mesh::Mesh& mesh) const = 0;
