@@ -1,15 +1,18 @@
-/// thixis: the command line (run, check, describe, cases).
+/// thixis: the command line (run, restart, check, describe, cases).
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
 #include <Tpetra_Core.hpp>
+#include <algorithm>
 #include <cstdio>
 
 #include "registry.hpp"
 #include "thixis/core/assert.hpp"
 #include "thixis/core/deck.hpp"
 #include "thixis/core/log.hpp"
+#include "thixis/core/text.hpp"
 #include "thixis/drive/run.hpp"
+#include "thixis/output/checkpoint.hpp"
 #include "versions.hpp"
 
 namespace thixis {
@@ -22,28 +25,43 @@ struct Arguments {
   core::Format format = core::Format::text;
 };
 
-/// The deck with its overrides, everything judged that needs no mesh.
-std::pair<core::Deck, drive::RunParams> read_deck(const Arguments& arguments, const core::Comm& comm) {
-  auto deck = core::Deck::read(arguments.deck, comm);
+/// f(deck, params, model) with the deck and its overrides, after everything is judged that needs no mesh. What shows only later gets its
+/// place in the deck, too.
+template <class F>
+core::ExitCode with_deck(core::Deck deck, const Arguments& arguments, F f) {
   for (const auto& assignment : arguments.overrides) deck.set(assignment);
   auto params = deck.parse(drive::RunParams::schema());
   if (!arguments.output.empty()) params.output.directory = arguments.output;
   if (params.output.directory.empty()) params.output.directory = "results/" + deck.stem();
-  drive::check_served(params);
-  return {std::move(deck), std::move(params)};
+  try {
+    drive::check_served(params);
+    return f(deck, params, *make_model(params));
+  } catch (const core::Error& error) {
+    throw deck.located(error);
+  }
 }
 
 core::ExitCode run(const Arguments& arguments, const core::Comm& comm) {
-  const auto [deck, params] = read_deck(arguments, comm);
-  const auto model = make_model(params);
-  return drive::run(params, *model, deck, comm, versions());
+  return with_deck(core::Deck::read(arguments.deck, comm), arguments,
+                   [&](const core::Deck& deck, const drive::RunParams& params, const models::Model& model) {
+                     return drive::run(params, model, deck, comm, versions());
+                   });
+}
+
+core::ExitCode restart(const Arguments& arguments, const core::Comm& comm) {
+  const auto stored = output::read_checkpoint(arguments.deck, comm);
+  return with_deck(core::Deck::from_text(stored.deck(), stored.path(), stored.folder()), arguments,
+                   [&](const core::Deck& deck, const drive::RunParams& params, const models::Model& model) {
+                     return drive::run(params, model, deck, comm, versions(), &stored);
+                   });
 }
 
 core::ExitCode check(const Arguments& arguments, const core::Comm& comm) {
-  const auto [deck, params] = read_deck(arguments, comm);
-  make_model(params);
-  core::log::info("{}: no mistakes found.", deck.file());
-  return core::ExitCode::done;
+  return with_deck(core::Deck::read(arguments.deck, comm), arguments,
+                   [](const core::Deck& deck, const drive::RunParams&, const models::Model&) {
+                     core::log::info("{}: no mistakes found.", deck.file());
+                     return core::ExitCode::done;
+                   });
 }
 
 core::ExitCode describe(const Arguments& arguments, const core::Comm&) {
@@ -63,6 +81,15 @@ std::string version_text() {
   return text;
 }
 
+/// What is wrong with a command line that names no command: CLI11 only says that one is required.
+std::string without_command(const CLI::App& app, int argc, char** argv) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) names.push_back(command->get_name());
+  const char* const* word = std::find_if(argv + 1, argv + argc, [](const char* argument) { return argument[0] != '-'; });
+  if (word == argv + argc) return "a command is missing; write one of " + core::join(names) + ".";
+  return fmt::format("no such command '{}'. {}", *word, core::did_you_mean(*word, names, "Write one of"));
+}
+
 /// Parses the command line and does what it says.
 core::ExitCode dispatch(int argc, char** argv, const core::Comm& comm) {
   using Command = core::ExitCode (*)(const Arguments&, const core::Comm&);
@@ -73,6 +100,7 @@ core::ExitCode dispatch(int argc, char** argv, const core::Comm& comm) {
       "Thixis solves problems with contact and other inequality constraints.\n\n"
       "  thixis run inputs/membranes/disk.xml                      solve a deck\n"
       "  mpirun -n 4 thixis run DECK --set mesh/refinements=5      on four ranks, one parameter changed\n"
+      "  thixis restart results/disk/checkpoint.h5                 go on from where a run ended, on any number of ranks\n"
       "  thixis check DECK                                         judge a deck without solving it\n"
       "  thixis describe newton                                    every parameter of a block\n"
       "  thixis describe --format xml > new.xml                    a deck to start from\n\n"
@@ -87,15 +115,26 @@ core::ExitCode dispatch(int argc, char** argv, const core::Comm& comm) {
     sub->callback([&command, action] { command = action; });
     return sub;
   };
+  const auto add_overrides = [&](CLI::App* sub) {
+    sub->add_option("--set", arguments.overrides, "PATH=VALUE: override one parameter, e.g. --set method/degree=3")->take_all();
+  };
   const auto add_deck = [&](CLI::App* sub) {
     sub->add_option("deck", arguments.deck, "The deck (XML)")->required();
-    sub->add_option("--set", arguments.overrides, "PATH=VALUE: override one parameter, e.g. --set method/degree=3")->take_all();
+    add_overrides(sub);
+  };
+  const auto add_verbosity = [&](CLI::App* sub) {
+    sub->add_flag("--quiet", arguments.quiet, "Show the verdict only");
+    sub->add_flag("--verbose", arguments.verbose, "Show details")->excludes("--quiet");
   };
   CLI::App* solve = add("run", "Solve a deck and write the results", run);
   add_deck(solve);
   solve->add_option("--output", arguments.output, "Folder of the results (default: results/<name of the deck>)");
-  solve->add_flag("--quiet", arguments.quiet, "Show the verdict only");
-  solve->add_flag("--verbose", arguments.verbose, "Show details")->excludes("--quiet");
+  add_verbosity(solve);
+  CLI::App* resume = add("restart", "Go on from a checkpoint, on any number of ranks", restart);
+  resume->add_option("checkpoint", arguments.deck, "The checkpoint.h5 of a run")->required();
+  add_overrides(resume);
+  resume->add_option("--output", arguments.output, "Folder of the results (default: that of the interrupted run)");
+  add_verbosity(resume);
   add_deck(add("check", "Judge a deck without solving it; all mistakes at once", check));
   CLI::App* explain = add("describe", "Every parameter: type, default, range, one sentence", describe);
   explain->add_option("block", arguments.block, "A block of the deck, e.g. newton or newton/initial (default: all)");
@@ -110,7 +149,9 @@ core::ExitCode dispatch(int argc, char** argv, const core::Comm& comm) {
     if (comm.root()) app.exit(wanted);
     return core::ExitCode::done;
   } catch (const CLI::ParseError& mistake) {
-    throw core::InputError(fmt::format("thixis: {}\nRun 'thixis --help' for the commands and options.", mistake.what()));
+    const bool no_command = dynamic_cast<const CLI::RequiredError*>(&mistake) != nullptr && app.get_subcommands().empty();
+    throw core::InputError(fmt::format("thixis: {}\nRun 'thixis --help' for the commands and options.",
+                                       no_command ? without_command(app, argc, argv) : mistake.what()));
   }
   if (arguments.quiet) core::log::set_level(core::log::Level::quiet);
   if (arguments.verbose) core::log::set_level(core::log::Level::verbose);

@@ -141,6 +141,7 @@ class Run {
     if (observer_.step)
       observer_.step({report_.steps, system_.linear_iterations() - iterations, now.active.count(), now.active.changed(before.active),
                       now.residual, now.equations, now.complementarity, solver.getStepSize(), elapsed.count()});
+    if (observer_.iterate) observer_.iterate(dynamic_cast<const NoxGroup&>(solver.getSolutionGroup()).X());
     return status;
   }
 

@@ -29,7 +29,11 @@ const core::Schema<NewtonParams>& NewtonParams::schema() {
           .parameter("tie tolerance", &NewtonParams::tie_tolerance, core::between(0, 1e-3),
                      "Gap and scaled multiplier count as equal up to this part of the largest of them.")
           .choice("scaling", &NewtonParams::scaling, {{"none", Scaling::none}, {"physical", Scaling::physical}},
-                  "Compare the gap with the multiplier itself, or with the multiplier scaled to a length.");
+                  "Compare the gap with the multiplier itself, or with the multiplier scaled to a length.")
+          .parameter(
+              "sweeps", &NewtonParams::sweeps, core::at_least(0),
+              "Sweeps of nonlinear smoothing after each undamped step of c-function min; if not given, 10 with nested starts, otherwise "
+              "none, which is plain Newton-min.");
   return s;
 }
 
@@ -48,7 +52,9 @@ const core::Schema<StoppingParams>& StoppingParams::schema() {
           .parameter("absolute tolerance", &Params::absolute_tolerance, core::at_least(0),
                      "Added to the bound of the nonlinear residual, in the units of the equations.")
           .parameter("kkt tolerance", &Params::kkt_tolerance, core::strictly_between(0, 1),
-                     "Largest relative violation of the contact conditions that the verifier lets pass.")
+                     "Largest relative violation of the contact conditions that the verifier lets pass; if not given, 1e-6 or, where that "
+                     "is more, "
+                     "what the nonlinear tolerance allows at one point.")
           .parameter("gamma algebraic", &Params::gamma_algebraic, core::strictly_between(0, 1),
                      "Algebraic error, relative to the larger one of discretization and linearization error.")
           .parameter("gamma linearization", &Params::gamma_linearization, core::strictly_between(0, 1),

@@ -9,4 +9,6 @@ double Problem::rhs_norm(const algebra::Vector&, const algebra::Vector& R) const
   return reference > 0 ? reference : R.norm2();
 }
 
+void Problem::relax(algebra::Vector&, int) const {}
+
 }  // namespace thixis::complementarity

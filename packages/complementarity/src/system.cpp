@@ -80,6 +80,12 @@ void System::solve(const algebra::Vector& X, const algebra::Vector& R, algebra::
   solved_ = report.converged && !report.by_criterion;
   left_ = std::max(stop.tolerance, report.residual);
   judge(report, stop.tolerance, residual, dX.norm2());
+  if (const int sweeps = newton_.sweeps.value_or(0); sweeps > 0 && function_ == CFunction::min) {
+    algebra::Vector relaxed(X, Teuchos::Copy);
+    relaxed.update(1, dX, 1);
+    problem_.relax(relaxed, sweeps);
+    dX.update(1, relaxed, -1, X, 0);
+  }
 }
 
 void System::judge(const algebra::LinearReport& report, double tolerance, double residual, double correction) {

@@ -34,7 +34,8 @@ class System {
   State residual(const algebra::Vector& X, algebra::Vector& R);
   /// A(X) for the contact set that `residual` found at X; kept inside the problem.
   void linearize(const algebra::Vector& X, const ActiveSet& active);
-  /// A(X) dX = -R with the A of the last `linearize`; throws StepFailed on all ranks.
+  /// A(X) dX = -R with the A of the last `linearize`, then (Newton-min) the smoothing that the deck asks for; throws StepFailed on all
+  /// ranks.
   void solve(const algebra::Vector& X, const algebra::Vector& R, algebra::Vector& dX);
 
   double nonlinear_bound() const { return stopping_.nonlinear_tolerance * reference_ + stopping_.absolute_tolerance; }

@@ -60,9 +60,10 @@ Deck Deck::read(const std::string& path, const Comm& comm) {
   return from_text(comm.on_root([&] { return text_of_file(path); }), path);
 }
 
-Deck Deck::from_text(const std::string& text, const std::string& name) {
+Deck Deck::from_text(const std::string& text, const std::string& name, const std::string& folder) {
   Deck deck;
   deck.file_ = name;
+  deck.folder_ = folder;
   deck.root_ = read_xml(text, name, deck.mistakes_);
   return deck;
 }
@@ -125,6 +126,18 @@ InputError Deck::error(const std::string& path, const std::string& sentence) con
   return InputError(message({place.line, place.assignment, path, sentence}));
 }
 
+Error Deck::located(const Error& error) const {
+  std::istringstream stream(error.what());
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(stream, line);) {
+    const auto colon = line.find(": ");
+    const std::string path = line.substr(0, colon);
+    const bool of_the_deck = colon != std::string::npos && root_.find(path.substr(0, path.find('/')), true) != nullptr;
+    lines.push_back(of_the_deck ? this->error(path, line.substr(colon + 2)).what() : line);
+  }
+  return {error.code(), join(lines, "\n")};
+}
+
 bool Deck::given(const std::string& path) const {
   bool exact = false;
   root_.along(path, exact);
@@ -132,7 +145,7 @@ bool Deck::given(const std::string& path) const {
 }
 
 std::string Deck::folder() const {
-  const std::string folder = std::filesystem::path(file_).parent_path().string();
+  const std::string folder = !folder_.empty() ? folder_ : std::filesystem::path(file_).parent_path().string();
   return folder.empty() ? "." : folder;
 }
 

@@ -83,12 +83,12 @@ Log& the_log() {
 void set_level(Level level) { the_log().level = level; }
 Level level() { return the_log().level; }
 
-void open(const std::string& path) {
+void open(const std::string& path, Old old) {
   if (!on_root()) return;
   Log& log = the_log();
   log.file.reset();
   try {
-    log.file = logger_on(std::make_shared<spdlog::sinks::basic_file_sink_mt>(path, true), "%v");
+    log.file = logger_on(std::make_shared<spdlog::sinks::basic_file_sink_mt>(path, old == Old::overwrite), "%v");
   } catch (const spdlog::spdlog_ex&) {
     throw FileError(fmt::format("{}: the log can not be written there; choose another output directory.", path));
   }

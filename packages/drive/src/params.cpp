@@ -31,7 +31,10 @@ const core::Schema<OutputParams>& OutputParams::schema() {
       core::Schema<OutputParams>("output", "What is written, and where.")
           .parameter("directory", &OutputParams::directory, "Folder of the results; if empty, results/<name of the deck>.")
           .parameter("fields", &OutputParams::fields, "Fields for fields.h5: all, none, or names separated by commas.")
-          .parameter("history", &OutputParams::history, "Whether history.csv is written.");
+          .parameter("history", &OutputParams::history, "Whether history.csv is written.")
+          .parameter("checkpoint every", &OutputParams::checkpoint_every, core::at_least(0),
+                     "checkpoint.h5 is written after so many Newton steps, again and again, and at the end; 0: only where a run ends "
+                     "without convergence.");
   return schema;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "checkpoint.hpp"
 #include "expectations.hpp"
 #include "thixis/algebra/tpetra.hpp"
 #include "thixis/core/log.hpp"
@@ -31,35 +32,47 @@ Verdict judge(const RunParams& params, const Outcome& outcome, long long cells) 
   const auto missing = missed(params.expect, outcome, cells);
   const std::string clauses = fmt::format("{}", fmt::join(missing, "; "));
   if (outcome.not_wanted) {
-    if (!missing.empty()) return {ExitCode::target_missed, "not solved (max iterations = 0), and expected otherwise: " + clauses + "."};
+    if (!missing.empty()) return {ExitCode::target_missed, "not solved (max iterations = 0), and not as expected: " + clauses + "."};
     return {ExitCode::done, "not solved: max iterations = 0 only counts the unknowns."};
   }
   if (!outcome.solved) return {ExitCode::not_converged, "not converged: " + outcome.finest.why};
-  const double tolerance = params.stopping.kkt_tolerance;
-  if (params.stopping.rule != complementarity::StoppingRule::adaptive && !outcome.kkt->holds(tolerance))
-    return {ExitCode::not_converged, "not converged: Newton stopped, but " + outcome.kkt->sentence(tolerance)};
+  if (params.stopping.rule != complementarity::StoppingRule::adaptive && !outcome.kkt->holds(outcome.kkt_tolerance))
+    return {ExitCode::not_converged, "not converged: Newton stopped, but " + outcome.kkt->sentence(outcome.kkt_tolerance)};
   if (!missing.empty()) return {ExitCode::target_missed, "solved, but not as expected: " + clauses + "."};
   std::string sentence =
-      fmt::format("solved in {} Newton steps and {} Krylov iterations", outcome.newton_iterations, outcome.linear_iterations);
+      fmt::format("solved in {} Newton steps and {} Krylov iterations", outcome.at.newton_iterations, outcome.at.linear_iterations);
   if (outcome.energy_error) sentence += fmt::format("; energy error {:.4e}", *outcome.energy_error);
   return {ExitCode::done, sentence + fmt::format("; contact conditions hold to {:.1e}.", outcome.kkt->worst())};
 }
 
-/// The log's table of Newton steps and the history file follow the solve.
+/// The log's table of Newton steps, the history and the checkpoint follow the solve.
 class Follow {
  public:
-  Follow(output::History& history) : history_(history) {}
+  /// `seconds_before`: spent before a restart. `checkpoint_every`: Newton steps, 0 for never.
+  Follow(output::History& history, const CheckpointFile& checkpoint, int checkpoint_every, double seconds_before)
+      : history_(history), checkpoint_(checkpoint), checkpoint_every_(checkpoint_every), seconds_before_(seconds_before) {}
 
   Observer observer() {
     Observer observer;
     observer.level = [this](const mesh::Mesh& mesh, int level, const models::Sizes& sizes) { begin_level(mesh, level, sizes); };
     observer.step = [this](const Progress& at, const complementarity::NewtonRecord& record) { step(at, record); };
+    if (checkpoint_every_ > 0)
+      observer.iterate = [this](const Position& at, const models::Discretization& discretization, const algebra::Vector& X) {
+        if (at.newton_iterations % checkpoint_every_ == 0) save(at, discretization, X);
+      };
     observer.check = [this](const Progress& at) { history_.append(row(at)); };
     observer.message = [](const std::string& sentence) { log::warn("{}", sentence); };
     return observer;
   }
 
+  /// Whether the iterate was worth it.
+  bool save(const Position& at, const models::Discretization& discretization, const algebra::Vector& X) const {
+    const core::Region region("output");
+    return checkpoint_.write(at, discretization, X, history_.rows(), seconds());
+  }
+
  private:
+  double seconds() const { return seconds_before_ + clock_.seconds(); }
   static void begin_level(const mesh::Mesh& mesh, int level, const models::Sizes& sizes) {
     log::info("level {}: {} cells, {} unknowns ({} in the linear system)", level, mesh.global_cells, sizes.unknowns_all,
               sizes.unknowns_global);
@@ -79,13 +92,43 @@ class Follow {
     row.changed = at.changed;
     row.residual = at.residual;
     row.energy_error = at.energy_error;
-    row.seconds = clock_.seconds();
+    row.seconds = seconds();
     return row;
   }
 
   output::History& history_;
+  const CheckpointFile& checkpoint_;
+  int checkpoint_every_;
+  double seconds_before_;
   core::Stopwatch clock_;
 };
+
+/// Makes the output directory and begins its log. `goes_on`: behind the files of the interrupted run.
+void open(const output::RunDirectory& directory, const RunParams& params, bool goes_on, const core::Comm& comm) {
+  directory.create(comm);
+  directory.write_deck(core::to_xml(RunParams::schema(), params), comm);
+  comm.on_root([&] { log::open(directory.log(), goes_on ? log::Old::keep : log::Old::overwrite); });
+}
+
+/// Says what is run, and where a restart goes on from.
+void introduce(const core::Deck& deck, const models::Model& model, const core::Comm& comm,
+               const std::vector<std::pair<std::string, std::string>>& versions, const output::StoredCheckpoint* stored) {
+  log::info("{}: model {}{}, on {} {}", deck.file(), model.name(), model.case_name().empty() ? "" : ", case " + model.case_name(),
+            comm.size(), comm.size() == 1 ? "rank" : "ranks");
+  for (const auto& [name, version] : versions) log::detail("{:<16}{}", name, version);
+  if (!stored) return;
+  const Position from = position_of(*stored);
+  log::info("goes on from level {}, Newton step {} ({} steps on all levels)", from.level, from.newton_on_level, from.newton_iterations);
+}
+
+/// How to go on, as a command: with more steps where those were too few.
+void invite(const std::string& checkpoint, const RunParams& params, const Outcome& outcome) {
+  const int most = params.newton.max_iterations;
+  const bool too_few = !outcome.solved && outcome.finest.steps >= most;
+  log::info(
+      "the last iterate is kept; to go on from it: thixis restart {}{}", checkpoint,
+      too_few ? fmt::format(" --set \"newton/max iterations={}\"", std::max(50, 2 * most)) : " --set PATH=VALUE (what shall be different)");
+}
 
 output::Summary summarize(const RunParams& params, const models::Model& model, const Outcome& outcome, const Verdict& verdict,
                           const mesh::Mesh& mesh, const core::Comm& comm, double total,
@@ -104,9 +147,9 @@ output::Summary summarize(const RunParams& params, const models::Model& model, c
   summary.unknowns.all = sizes.unknowns_all;
   summary.unknowns.global = sizes.unknowns_global;
   summary.nonzeros = sizes.nonzeros;
-  summary.newton_iterations = outcome.newton_iterations;
-  summary.newton_finest = outcome.finest.steps;
-  summary.linear_iterations = outcome.linear_iterations;
+  summary.newton_iterations = outcome.at.newton_iterations;
+  summary.newton_finest = outcome.at.newton_on_level;
+  summary.linear_iterations = outcome.at.linear_iterations;
   summary.energy_error = outcome.energy_error;
   summary.active_points = outcome.finest.active;
   if (outcome.kkt) {
@@ -125,12 +168,13 @@ output::Summary summarize(const RunParams& params, const models::Model& model, c
 }  // namespace
 
 void check_served(const RunParams& params) {
+  const std::string no_estimate = " needs an error estimate, which this version does not compute; ";
   if (params.stopping.rule == complementarity::StoppingRule::adaptive)
-    throw core::InputError("stopping/rule: adaptive needs an error estimate, which this version does not compute; write exact or inexact.");
-  if (params.stopping.estimate.value_or(false) || params.stopping.target || params.expect.effectivity_between)
-    throw core::InputError(
-        "stopping/estimate, stopping/target and expect/effectivity between need an error estimate, which this version does not compute; "
-        "leave them out.");
+    throw core::InputError("stopping/rule: adaptive" + no_estimate + "write exact or inexact.");
+  if (params.stopping.estimate.value_or(false))
+    throw core::InputError("stopping/estimate: this" + no_estimate + "write false or leave it out.");
+  if (params.stopping.target) throw core::InputError("stopping/target: this" + no_estimate + "leave it out.");
+  if (params.expect.effectivity_between) throw core::InputError("expect/effectivity between: this" + no_estimate + "leave it out.");
   if (params.linear.solver == algebra::SolverKind::cg && params.linear.form == algebra::SystemForm::full)
     throw core::InputError(
         "linear/solver: the full system is not symmetric, so cg can not solve it; write form = reduced, or solver = gmres.");
@@ -139,7 +183,7 @@ void check_served(const RunParams& params) {
 }
 
 ExitCode run(const RunParams& params, const models::Model& model, const core::Deck& deck, const core::Comm& comm,
-             const std::vector<std::pair<std::string, std::string>>& versions) {
+             const std::vector<std::pair<std::string, std::string>>& versions, const output::StoredCheckpoint* stored) {
   const core::Stopwatch clock;
   core::reset_regions();
   mesh::Hierarchy hierarchy;
@@ -150,19 +194,22 @@ ExitCode run(const RunParams& params, const models::Model& model, const core::De
   const mesh::Mesh& finest = hierarchy.finest();
   // what is wrong in the scene on this mesh shows here, before anything is written
   model.check(finest, params.output.field_names());
+  if (stored) check_restart(*stored, params, hierarchy);
 
   const output::RunDirectory directory(params.output.directory);
-  directory.create(comm);
-  directory.write_deck(core::to_xml(RunParams::schema(), params), comm);
-  comm.on_root([&] { log::open(directory.log()); });
-  log::info("{}: model {}{}, on {} {}", deck.file(), model.name(), model.case_name().empty() ? "" : ", case " + model.case_name(),
-            comm.size(), comm.size() == 1 ? "rank" : "ranks");
-  for (const auto& [name, version] : versions) log::detail("{:<16}{}", name, version);
+  const bool goes_on = stored && same_directory(*stored, directory.path());
+  open(directory, params, goes_on, comm);
+  introduce(deck, model, comm, versions, stored);
+  const CheckpointFile checkpoint(directory.checkpoint(), params, deck, hierarchy);
+  if (!goes_on) checkpoint.remove(comm);
 
-  output::History history(directory.history(), comm, params.output.history);
-  Follow follow(history);
-  const Outcome outcome = solve_stationary(model, hierarchy, params, follow.observer());
+  output::History history =
+      output::History::go_on(directory.history(), goes_on ? history_rows_of(*stored) : 0, comm, params.output.history);
+  Follow follow(history, checkpoint, params.output.checkpoint_every, stored ? seconds_of(*stored) : 0);
+  const Outcome outcome = solve_stationary(model, hierarchy, params, follow.observer(), stored);
   const Verdict verdict = judge(params, outcome, finest.global_cells);
+  const bool to_be_kept = verdict.code == ExitCode::not_converged || (params.output.checkpoint_every > 0 && !outcome.not_wanted);
+  const bool kept = to_be_kept && follow.save(outcome.at, *outcome.discretization, *outcome.X);
 
   if (!outcome.not_wanted && !params.output.no_fields()) {
     const core::Region region("output");
@@ -174,6 +221,7 @@ ExitCode run(const RunParams& params, const models::Model& model, const core::De
   summary.write(directory.summary(), comm);
   log::info("{}", core::region_table(comm, clock.seconds()));
   log::info("results in {}", directory.path());
+  if (kept && verdict.code == ExitCode::not_converged) invite(checkpoint.path(), params, outcome);
   log::verdict("{}", verdict.sentence);
   log::close();
   return verdict.code;

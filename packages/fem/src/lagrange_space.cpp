@@ -43,6 +43,13 @@ class LagrangeSpace final : public method::Space {
   const mesh::Mesh& mesh() const override { return mesh_; }
   algebra::MapPtr map() const override { return numbering_.rows; }
   algebra::GraphPtr graph() const override { return graph_; }
+  std::vector<GlobalIndex> unknown_ids() const override {
+    std::vector<GlobalIndex> ids;
+    ids.reserve(algebra::local_size(*numbering_.rows));
+    for (LocalIndex row = 0; row < algebra::local_size(*numbering_.rows); ++row)
+      ids.push_back(mesh_.vertex_id[numbering_.vertex_of_column[row]]);
+    return ids;
+  }
   Teuchos::RCP<const algebra::MultiVector> coordinates() const override { return coordinates_; }
   const Vector& pairing() const override { return pairing_; }
 

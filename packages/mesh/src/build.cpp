@@ -23,7 +23,7 @@ void broadcast(const core::Comm& comm, Triangulation& triangulation) {
 
 Triangulation read_on_root(const std::string& file, const core::Comm& comm, const std::string& folder) {
   Triangulation triangulation;
-  comm.on_root([&] { triangulation = read_gmsh((std::filesystem::path(folder) / file).string()); });
+  comm.on_root([&] { triangulation = read_gmsh((std::filesystem::path(folder) / file).lexically_normal().string()); });
   broadcast(comm, triangulation);
   return triangulation;
 }

@@ -43,6 +43,8 @@ class Session {
 void require_format(const std::string& path, const std::string& name) {
   std::error_code ignored;
   std::ifstream file(path, std::ios::binary);
+  if (std::filesystem::is_directory(path, ignored))
+    throw FileError(name + " is a folder; write the name of a Gmsh mesh relative to the deck.");
   if (!file || !std::filesystem::is_regular_file(path, ignored))
     throw FileError(name + " can not be opened; write the name of a Gmsh mesh relative to the deck.");
   std::string head(1 << 16, '\0');
@@ -170,7 +172,7 @@ Triangulation current_model(const std::string& name) {
 }  // namespace
 
 Triangulation read_gmsh(const std::string& path) {
-  const std::string name = "The mesh file '" + path + "'";
+  const std::string name = "mesh/file: '" + path + "'";
   require_format(path, name);
   const Session session;
   std::string reason;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "full_system.hpp"
+#include "projected_jacobi.hpp"
 #include "reduced_system.hpp"
 #include "thixis/core/timer.hpp"
 
@@ -64,6 +65,22 @@ void MembraneProblem::linearize(const Vector&, const Vector& a, const Vector& b)
 
 algebra::LinearReport MembraneProblem::solve(const Vector& R, Vector& dX, const algebra::LinearStop& stop) {
   return system_->solve(R, dX, stop);
+}
+
+void MembraneProblem::relax(Vector& X, int sweeps) const {
+  MultiVector x(membranes_.map(), 3);
+  split(X, x);
+  projected_jacobi(membranes_, sweeps, x);
+  join(x, X);
+}
+
+void MembraneProblem::make_complementary(MultiVector& x) const {
+  const auto fields = x.getLocalViewDevice(Tpetra::Access::ReadWrite);
+  const double theta1 = membranes_.theta[0], theta2 = membranes_.theta[1];
+  Kokkos::parallel_for(
+      "thixis::models::make_complementary", Kokkos::RangePolicy<Vector::execution_space>(0, fields.extent_int(0)), KOKKOS_LAMBDA(int l) {
+        if (fields(l, 2) > 0) fields(l, 0) = fields(l, 1) = theta1 * fields(l, 0) + theta2 * fields(l, 1);
+      });
 }
 
 double MembraneProblem::reference_norm() const { return std::hypot(membranes_.load[0]->norm2(), membranes_.load[1]->norm2()); }

@@ -21,6 +21,12 @@ class MembraneProblem final : public complementarity::Problem {
   void linearize(const algebra::Vector& X, const algebra::Vector& a, const algebra::Vector& b) override;
   algebra::LinearReport solve(const algebra::Vector& R, algebra::Vector& dX, const algebra::LinearStop& stop) override;
   double reference_norm() const override;
+  void relax(algebra::Vector& X, int sweeps) const override;
+
+  /// Brings the membranes together (at the mean theta1 u1 + theta2 u2) where lambda_l > 0. Interpolation leaves points along the edge of
+  /// the contact zone with a gap and a multiplier; where the data are flat there, beginning with them free would make the zone overshoot,
+  /// and Newton-min takes that back by one layer of points a step. x: columns u1, u2, lambda.
+  void make_complementary(algebra::MultiVector& x) const;
 
   GlobalIndex rows() const;      ///< of the Krylov system
   GlobalIndex nonzeros() const;  ///< 0 before the first linearization

@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "membrane_problem.hpp"
 #include "thixis/core/error.hpp"
 #include "thixis/core/timer.hpp"
 #include "thixis/mesh/host.hpp"
+#include "thixis/method/quadrature.hpp"
 
 namespace thixis::models {
 namespace {
@@ -52,28 +54,87 @@ Boundary boundary_of(const scene::MembraneScene& scene, const mesh::Mesh& mesh) 
   return boundary;
 }
 
-/// Throws where g1 < g2 at an end of a held face: membranes that cross at their boundary have no solution. Collective.
-void check_boundary_gap(const Boundary& boundary, const mesh::Mesh& mesh) {
+struct PointList {
+  std::vector<double> x, y;
+  void add(double px, double py) {
+    x.push_back(px);
+    y.push_back(py);
+  }
+  std::vector<double> evaluate(const scene::Field& field) const {
+    std::vector<double> values(x.size());
+    field.evaluate({x.size(), x.data(), y.data()}, 0, values.data());
+    return values;
+  }
+};
+
+/// Ends of the faces of a part of the boundary on this rank (ends: true), or their midpoints.
+PointList points_on(const mesh::Mesh& mesh, const mesh::HostMesh& host, std::size_t tag, bool ends) {
+  PointList points;
+  for (LocalIndex F = 0; F < mesh.faces; ++F) {
+    if (host.face_tag(F) != static_cast<LocalIndex>(tag)) continue;
+    const LocalIndex a = host.face_vertices(F, 0), b = host.face_vertices(F, 1);
+    const double ax = host.coordinates(a, 0), ay = host.coordinates(a, 1), bx = host.coordinates(b, 0), by = host.coordinates(b, 1);
+    if (ends) points.add(ax, ay), points.add(bx, by);
+    else points.add((ax + bx) / 2, (ay + by) / 2);
+  }
+  return points;
+}
+
+/// Throws where g1 < g2 at an end of a held face (membranes that cross at their boundary have no solution), and where boundary data are not
+/// finite. Collective.
+void check_boundary(const scene::MembraneScene& scene, const Boundary& boundary, const mesh::Mesh& mesh) {
   mesh.comm.together([&] {
     const auto host = mesh::on_host(mesh);
     for (std::size_t tag = 0; tag < boundary.dirichlet.size(); ++tag) {
-      if (!boundary.dirichlet[tag]) continue;
-      std::vector<double> x, y;
-      for (LocalIndex F = 0; F < mesh.faces; ++F)
-        for (int i = 0; i < 2 && host.face_tag(F) == static_cast<LocalIndex>(tag); ++i) {
-          x.push_back(host.coordinates(host.face_vertices(F, i), 0));
-          y.push_back(host.coordinates(host.face_vertices(F, i), 1));
-        }
-      std::vector<double> upper(x.size()), lower(x.size());
-      boundary.values[0].dirichlet[tag]->evaluate({x.size(), x.data(), y.data()}, 0, upper.data());
-      boundary.values[1].dirichlet[tag]->evaluate({x.size(), x.data(), y.data()}, 0, lower.data());
-      for (std::size_t i = 0; i < x.size(); ++i)
+      const PointList at = points_on(mesh, host, tag, boundary.dirichlet[tag]);
+      if (!boundary.dirichlet[tag]) {
+        for (const auto& values : boundary.values) at.evaluate(*values.neumann[tag]);
+        continue;
+      }
+      const auto upper = at.evaluate(*boundary.values[0].dirichlet[tag]), lower = at.evaluate(*boundary.values[1].dirichlet[tag]);
+      for (std::size_t i = 0; i < upper.size(); ++i)
         if (upper[i] < lower[i] - 1e-12 * (std::abs(upper[i]) + std::abs(lower[i])))
           throw core::InputError(
-              fmt::format("scene/data: on the boundary '{}' the upper membrane lies below the lower one: g1 = {:.6g} < g2 = {:.6g} "
+              fmt::format("{}: on the boundary '{}' the upper membrane lies below the lower one: g1 = {:.6g} < g2 = {:.6g} "
                           "at ({:.6g}, {:.6g}); give boundary data with g1 >= g2.",
-                          mesh.tags[tag], upper[i], lower[i], x[i], y[i]));
+                          scene.boundary.count(mesh.tags[tag]) > 0 ? "scene/boundary/" + mesh.tags[tag] : "scene/data/g1", mesh.tags[tag],
+                          upper[i], lower[i], at.x[i], at.y[i]));
     }
+  });
+}
+
+/// Throws where a tension is not positive or another function of the user is not finite: at the points where the run will ask for it, but
+/// before anything is written. Collective.
+void check_data(const scene::MembraneScene& scene, const method::MethodParams& method, const mesh::Mesh& mesh) {
+  const auto quadrature = method::make_quadrature(mesh, method::owned_cells(mesh), method.order(), scene.interface_level_set);
+  double lowest[2] = {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  mesh.comm.together([&] {
+    const mesh::View<double*> values("thixis::models::data", quadrature.largest_block);
+    const auto on_host = Kokkos::create_mirror_view(values);
+    method::for_each_block(quadrature, [&](const method::QuadratureBlock& block) {
+      for (int alpha = 0; alpha < 2; ++alpha) {
+        method::evaluate(*scene.force[alpha], 0, block, values);
+        if (scene.exact) method::evaluate(*scene.exact->u[alpha], 0, block, values);
+        method::evaluate(*scene.tension[alpha], 0, block, values);
+        Kokkos::deep_copy(on_host, values);
+        for (int q = 0; q < block.points; ++q) lowest[alpha] = std::min(lowest[alpha], on_host(q));
+      }
+    });
+  });
+  for (int alpha = 0; alpha < 2; ++alpha)
+    if (const double tension = mesh.comm.min(lowest[alpha]); !(tension > 0))
+      throw core::InputError(
+          fmt::format("scene/data/mu{}: the tension falls to {:.6g}; give one that is positive everywhere.", alpha + 1, tension));
+}
+
+/// Throws where the functions that a cold start begins with are not finite. Collective.
+void check_initial(const std::array<scene::FieldPtr, 3>& initial, const mesh::Mesh& mesh) {
+  mesh.comm.together([&] {
+    PointList vertices;
+    const auto coordinates = mesh::on_host(mesh).coordinates;
+    for (LocalIndex v = 0; v < mesh.vertices; ++v) vertices.add(coordinates(v, 0), coordinates(v, 1));
+    for (const auto& field : initial)
+      if (field) vertices.evaluate(*field);
   });
 }
 
@@ -84,6 +145,18 @@ void check_field_names(const std::vector<std::string>& names) {
     if (std::find(std::begin(known_fields), std::end(known_fields), name) == std::end(known_fields))
       throw core::InputError(
           fmt::format("output/fields: there is no field '{}'; write all, none, or some of {}.", name, fmt::join(known_fields, ", ")));
+}
+
+const char* const unknown_fields[] = {"u1", "u2", "lambda"};
+
+void check_size(const output::StoredCheckpoint& stored, const std::string& block, GlobalIndex unknowns) {
+  const GlobalIndex saved = stored.size(block);
+  if (saved == unknowns) return;
+  throw core::InputError(
+      fmt::format("The checkpoint '{}' belongs to another model, mesh or method: it holds {}, the deck asks for {}; leave scene/model, "
+                  "mesh, method and "
+                  "the kinds of the boundary as they were.",
+                  stored.path(), saved < 0 ? fmt::format("no '{}'", block) : fmt::format("{} values of '{}'", saved, block), unknowns));
 }
 
 class MembraneDiscretization final : public Discretization {
@@ -121,6 +194,34 @@ class MembraneDiscretization final : public Discretization {
     for (int field = 0; field < 3; ++field) {
       const auto u = coarse.space_->complete(*coarse_x.getVector(field), field < 2 ? coarse.lift_[field] : coarse.nothing());
       space_->prolongate(*coarse.space_, u, *x.getVectorNonConst(field));
+    }
+    problem_->make_complementary(x);
+    return joined(x);
+  }
+
+  std::vector<output::CheckpointBlock> save(const Vector& X) const override {
+    MultiVector x(space_->map(), 3);
+    split(X, x);
+    const auto ids = space_->unknown_ids();
+    std::vector<output::CheckpointBlock> blocks;
+    for (int field = 0; field < 3; ++field) {
+      const auto column = x.getVector(field);
+      const auto values = algebra::host_view(*column);
+      blocks.push_back({unknown_fields[field], ids, {values.data(), values.data() + values.extent(0)}});
+    }
+    return blocks;
+  }
+
+  Teuchos::RCP<Vector> restore(const output::StoredCheckpoint& stored) const override {
+    const auto unknowns = static_cast<GlobalIndex>(space_->map()->getGlobalNumElements());
+    const auto ids = space_->unknown_ids();
+    MultiVector x(space_->map(), 3);
+    for (int field = 0; field < 3; ++field) {
+      check_size(stored, unknown_fields[field], unknowns);
+      const auto values = stored.fetch(unknown_fields[field], ids);
+      const auto column = x.getVectorNonConst(field);
+      const auto out = algebra::host_overwrite(*column);
+      std::copy(values.begin(), values.end(), out.data());
     }
     return joined(x);
   }
@@ -163,6 +264,7 @@ class MembraneDiscretization final : public Discretization {
       defect.elementWiseMultiply(1, inverse, *body_[alpha], 0);
       data.multiplier_scale = std::max({data.multiplier_scale, multiplier->normInf(), defect.normInf()});
     }
+    data.smallest_pairing = 1 / inverse.normInf();
     if (!(data.gap_scale > 0)) data.gap_scale = 1;
     if (!(data.multiplier_scale > 0)) data.multiplier_scale = 1;
     return data;
@@ -259,7 +361,9 @@ class Membranes final : public Model {
   std::string case_name() const override { return scene_.name == "data" ? "" : scene_.name; }
   void check(const mesh::Mesh& mesh, const std::vector<std::string>& field_names) const override {
     check_field_names(field_names);
-    check_boundary_gap(boundary_of(scene_, mesh), mesh);
+    check_boundary(scene_, boundary_of(scene_, mesh), mesh);
+    if (case_name().empty()) check_data(scene_, method_, mesh);
+    check_initial(initial_, mesh);
   }
   std::unique_ptr<Discretization> discretize(const mesh::Mesh& mesh) const override {
     return std::make_unique<MembraneDiscretization>(scene_, make_space_, method_, linear_, initial_, mesh);

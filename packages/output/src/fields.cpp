@@ -18,9 +18,6 @@ namespace {
 
 const std::string data_name = "fields.h5";
 
-/// At most so many bytes does HDF5 add to the numbers themselves: for a group with its first entries, for an array.
-constexpr long long group_bytes = 8192, array_bytes = 4096;
-
 /// Bytes that a grid needs in the file.
 long long room_of(const XdmfGrid& grid, bool new_mesh) {
   long long room = group_bytes;

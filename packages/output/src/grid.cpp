@@ -2,37 +2,16 @@
 
 #include <fmt/core.h>
 
-#include <cctype>
-#include <cstring>
 #include <set>
 
+#include "hash.hpp"
+#include "hdf5_file.hpp"
 #include "thixis/mesh/host.hpp"
 
 namespace thixis::output {
 namespace {
 
-/// One step of SplitMix64 (Steele, Lea, Flood 2014, doi:10.1145/2714064.2660195).
-std::uint64_t mixed(std::uint64_t hash, std::uint64_t word) {
-  hash += word + 0x9e3779b97f4a7c15u;
-  hash = (hash ^ (hash >> 30)) * 0xbf58476d1ce4e5b9u;
-  hash = (hash ^ (hash >> 27)) * 0x94d049bb133111ebu;
-  return hash ^ (hash >> 31);
-}
-
-std::uint64_t bits(double value) {
-  std::uint64_t word;
-  std::memcpy(&word, &value, sizeof word);
-  return word;
-}
-
 [[noreturn]] void wrong(const std::string& sentence) { throw core::Error(core::ExitCode::internal, sentence); }
-
-void check_name(const std::string& name) {
-  bool valid = !name.empty() && name.front() != ' ' && name.back() != ' ' && name.front() != '.';
-  for (const unsigned char c : name) valid = valid && (std::isalnum(c) || std::strchr("_-. ", c));
-  if (!valid)
-    wrong(fmt::format("A field can not be called '{}': its name must be made of letters, digits, '_', '-', '.' and inner spaces.", name));
-}
 
 std::size_t end_of_owned(const std::vector<int>& owner, int rank) {
   std::size_t end = owner.size();
@@ -109,7 +88,7 @@ void check(const Grid& grid, const std::vector<FieldData>& fields, const core::C
     const std::size_t points = end_of_owned(grid.point_owner, comm.rank()), triangles = end_of_owned(grid.triangle_owner, comm.rank());
     std::set<std::string> names;
     for (const FieldData& field : fields) {
-      check_name(field.name);
+      check_entry_name("field", field.name);
       check_values(field, field.centre == Centre::vertex ? points : triangles);
       if (!names.insert(field.name).second) wrong(fmt::format("Two fields are called '{}'.", field.name));
     }

@@ -2,13 +2,14 @@
 
 #include <fcntl.h>
 #include <fmt/core.h>
-#include <hdf5.h>
 #include <unistd.h>
 
 #include <array>
+#include <cctype>
 #include <cerrno>
 #include <cstring>
 
+#include "hdf5_handle.hpp"
 #include "thixis/core/error.hpp"
 
 #ifndef H5_HAVE_PARALLEL
@@ -19,39 +20,6 @@ namespace thixis::output {
 namespace {
 
 static_assert(sizeof(hid_t) <= sizeof(long long));
-
-/// HDF5 prints no error stacks while it lives.
-class Quiet {
- public:
-  Quiet() {
-    H5Eget_auto2(H5E_DEFAULT, &print_, &data_);
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  }
-  ~Quiet() { H5Eset_auto2(H5E_DEFAULT, print_, data_); }
-  Quiet(const Quiet&) = delete;
-  Quiet& operator=(const Quiet&) = delete;
-
- private:
-  H5E_auto2_t print_ = nullptr;
-  void* data_ = nullptr;
-};
-
-/// An identifier of HDF5 with the function that gives it back.
-class Handle {
- public:
-  Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
-  ~Handle() {
-    if (id_ >= 0) close_(id_);
-  }
-  Handle(const Handle&) = delete;
-  Handle& operator=(const Handle&) = delete;
-  operator hid_t() const { return id_; }
-  bool valid() const { return id_ >= 0; }
-
- private:
-  hid_t id_;
-  herr_t (*close_)(hid_t);
-};
 
 /// Opens the file for the root alone and makes room at its end, which HDF5 cuts off again as far as it is not needed. Says what the system
 /// says; MPI-IO would only say that it failed.
@@ -70,6 +38,15 @@ void make_room(const std::string& path, Hdf5File::Mode mode, long long room) {
 }
 
 }  // namespace
+
+void check_entry_name(const std::string& what, const std::string& name) {
+  bool valid = !name.empty() && name.front() != ' ' && name.back() != ' ' && name.front() != '.';
+  for (const unsigned char c : name) valid = valid && (std::isalnum(c) || std::strchr("_-. ", c));
+  if (!valid)
+    throw core::Error(
+        core::ExitCode::internal,
+        fmt::format("A {} can not be called '{}': its name must be made of letters, digits, '_', '-', '.' and inner spaces.", what, name));
+}
 
 Hdf5File::Hdf5File(const std::string& path, Mode mode, long long room, const core::Comm& comm) : path_(path), comm_(comm) {
   comm.on_root([&] { make_room(path, mode, room); });
@@ -102,12 +79,38 @@ void Hdf5File::add_group(const std::string& name) {
   require(group.valid(), fmt::format("The group '{}'", name));
 }
 
-void Hdf5File::add_attribute(const std::string& group, const std::string& name, double value) {
+void Hdf5File::add_number(const std::string& group, const std::string& name, Id stored, Id type, const void* value) {
   const Quiet quiet;
   const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
-  const Handle attribute(
-      H5Acreate_by_name(file_, group.c_str(), name.c_str(), H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
-  require(attribute.valid() && H5Awrite(attribute, H5T_NATIVE_DOUBLE, &value) >= 0, fmt::format("The attribute '{}' of '{}'", name, group));
+  const Handle attribute(H5Acreate_by_name(file_, group.c_str(), name.c_str(), stored, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                         H5Aclose);
+  require(attribute.valid() && H5Awrite(attribute, type, value) >= 0, fmt::format("The attribute '{}' of '{}'", name, group));
+}
+
+void Hdf5File::add_attribute(const std::string& group, const std::string& name, double value) {
+  add_number(group, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, &value);
+}
+void Hdf5File::add_attribute(const std::string& group, const std::string& name, GlobalIndex value) {
+  add_number(group, name, H5T_STD_I64LE, H5T_NATIVE_LLONG, &value);
+}
+
+void Hdf5File::add_text(const std::string& name, const std::string& text) {
+  const Quiet quiet;
+  const Handle type(H5Tcopy(H5T_C_S1), H5Tclose), space(H5Screate(H5S_SCALAR), H5Sclose), creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  H5Tset_size(type, text.size() + 1);
+  H5Tset_cset(type, H5T_CSET_UTF8);
+  H5Pset_obj_track_times(creation, false);
+  const std::string what = fmt::format("The text '{}'", name);
+  const Handle array(H5Dcreate2(file_, name.c_str(), type, space, H5P_DEFAULT, creation, H5P_DEFAULT), H5Dclose);
+  require(array.valid(), what);
+  const Handle memory_space(H5Screate(H5S_SCALAR), H5Sclose);
+  if (!comm_.root()) {
+    H5Sselect_none(space);
+    H5Sselect_none(memory_space);
+  }
+  const Handle transfer(H5Pcreate(H5P_DATASET_XFER), H5Pclose);
+  H5Pset_dxpl_mpio(transfer, H5FD_MPIO_COLLECTIVE);
+  require(H5Dwrite(array, type, memory_space, space, transfer, text.c_str()) >= 0, what);
 }
 
 void Hdf5File::add_rows(const std::string& name, const Slab& slab, int columns, Id type, const void* rows) {
@@ -133,6 +136,7 @@ void Hdf5File::add_rows(const std::string& name, const Slab& slab, int columns, 
   const std::string what = fmt::format("The array '{}'", name);
   const Handle array(H5Dcreate2(file_, name.c_str(), stored, file_space, H5P_DEFAULT, creation, H5P_DEFAULT), H5Dclose);
   require(array.valid(), what);
+  if (slab.total == 0) return;  // HDF5 refuses to write nothing
 
   const Handle transfer(H5Pcreate(H5P_DATASET_XFER), H5Pclose);
   H5Pset_dxpl_mpio(transfer, H5FD_MPIO_COLLECTIVE);
@@ -144,6 +148,11 @@ void Hdf5File::add_array(const std::string& name, const Slab& slab, int columns,
 }
 void Hdf5File::add_array(const std::string& name, const Slab& slab, int columns, const std::vector<GlobalIndex>& rows) {
   add_rows(name, slab, columns, H5T_NATIVE_LLONG, rows.data());
+}
+
+void Hdf5File::sync() {
+  const Quiet quiet;
+  require(H5Fflush(file_, H5F_SCOPE_GLOBAL) >= 0, "The data");
 }
 
 void Hdf5File::close() {

@@ -2,18 +2,22 @@
 #include <string>
 #include <vector>
 
-#include "thixis/core/comm.hpp"
-#include "thixis/core/types.hpp"
+#include "exchange.hpp"
 
 namespace thixis::output {
 
-/// Consecutive rows of an array with `total` rows, those of one rank. Slabs of ranks follow each other, the last ones may be empty.
+/// Consecutive rows of an array with `total` rows, those of one rank. Slabs of ranks follow each other.
 struct Slab {
   GlobalIndex begin = 0, size = 0, total = 0;
 };
 
-/// Brings values of owned entities, whose ids are scattered over 0..total-1, to the slabs in which they are consecutive. One
-/// MPI_Alltoallv per array: then every rank writes one contiguous piece of a file.
+/// The number of rows in all slabs that are full when `total` rows are shared evenly, at least 1: row i is in the slab of rank i / height.
+GlobalIndex slab_height(GlobalIndex total, const core::Comm& comm);
+/// The slab of this rank then; the last ones may be shorter or empty. Not collective.
+Slab even_slab(GlobalIndex total, const core::Comm& comm);
+
+/// Brings values of owned entities, whose ids are scattered over 0..total-1, to the slabs in which they are consecutive: then every rank
+/// writes one contiguous piece of a file.
 class SlabExchange {
  public:
   /// Collective. Throws an Error on all ranks unless each id has exactly one owner; `entity` is the word for it in the sentence.
@@ -28,13 +32,11 @@ class SlabExchange {
 
  private:
   template <class T>
-  std::vector<T> exchange(const T* values, int components, int columns, MPI_Datatype type) const;
+  std::vector<T> rows(const T* values, int components, int columns) const;
 
-  core::Comm comm_;
   Slab slab_;
-  std::vector<LocalIndex> sent_;                                                    ///< local entities in the order of their targets
-  std::vector<GlobalIndex> received_;                                               ///< rows of the slab in the order in which they arrive
-  std::vector<int> send_counts_, send_offsets_, receive_counts_, receive_offsets_;  ///< of entities, by rank
+  Exchange exchange_;
+  std::vector<GlobalIndex> row_;  ///< of the slab, in the order in which entities arrive
 };
 
 }  // namespace thixis::output

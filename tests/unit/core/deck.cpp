@@ -112,6 +112,7 @@ TEST(Deck, knows_where_an_entry_stands) {
   EXPECT_EQ(deck.folder(), "inputs");
   EXPECT_EQ(deck.stem(), "x");
   EXPECT_EQ(Deck::from_text(deck_with(""), "y.xml").folder(), ".");
+  EXPECT_EQ(Deck::from_text(deck_with(""), "y.xml", "/meshes").folder(), "/meshes");
 }
 
 TEST(Deck, is_read_from_a_file_the_same_on_all_ranks) {

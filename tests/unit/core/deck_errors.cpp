@@ -151,6 +151,19 @@ TEST(DeckErrors, all_are_reported_at_once_in_the_order_of_the_lines) {
       "x.xml:11: tmie: no such block. Did you mean 'time'?");
 }
 
+TEST(DeckErrors, what_shows_only_later_gets_its_place_line_by_line) {
+  Deck deck = Deck::from_text(deck_with(newton(entry("damping", "double", "1"))), "x.xml");
+  deck.set("mesh/lower={0,0}");
+  const auto located = [&](const std::string& text) { return std::string(deck.located(InputError(text)).what()); };
+  EXPECT_EQ(located("newton/damping: is too small."), "x.xml:4: newton/damping: is too small.");
+  EXPECT_EQ(located("newton/initial/u1: is not finite."), "x.xml:3: newton/initial/u1: is not finite.");  // the block it would stand in
+  EXPECT_EQ(located("newton/damping: first.\nmesh/lower: second."),
+            "x.xml:4: newton/damping: first.\n--set mesh/lower={0,0}: mesh/lower: second.");
+  EXPECT_EQ(located("linear/restart: a block that is not given."), "linear/restart: a block that is not given.");
+  EXPECT_EQ(located("The output directory 'x' can not be used: it is a file."), "The output directory 'x' can not be used: it is a file.");
+  EXPECT_EQ(deck.located(FileError("mesh: no file.")).code(), ExitCode::input_output);
+}
+
 TEST(DeckErrors, mistakes_of_form) {
   EXPECT_EQ(error_in("<Paramter name=\"a\"/>"), "x.xml:3: thixis: no such element <Paramter>. Did you mean 'Parameter'?");
   EXPECT_EQ(error_in(newton("<Parameter name=\"damping\" type=\"double\" vlaue=\"1\"/>")),

@@ -54,6 +54,19 @@ TEST(Log, the_file_shows_what_the_terminal_showed_also_before_it_was_opened) {
   std::remove(path.c_str());
 }
 
+TEST(Log, keeps_the_lines_of_an_older_run_where_asked_to) {
+  const std::string path = file_of_this_rank();
+  std::remove(path.c_str());
+  for (const auto old : {log::Old::overwrite, log::Old::keep, log::Old::keep, log::Old::overwrite, log::Old::keep})
+    printed([&] {
+      log::open(path, old);
+      log::info("line");
+      log::close();
+    });
+  EXPECT_EQ(content(path), Comm().root() ? "line\nline\n" : "");
+  std::remove(path.c_str());
+}
+
 TEST(Log, levels_choose_what_is_shown) {
   const auto all = [] {
     log::info("info");

@@ -74,7 +74,7 @@ std::string refusal(const std::string& content) {
   try {
     import(file.path());
   } catch (const core::InputError& error) {
-    const std::string sentence = error.what(), name = "The mesh file '" + file.path() + "'";
+    const std::string sentence = error.what(), name = "mesh/file: '" + file.path() + "'";
     EXPECT_EQ(sentence.substr(0, name.size()), name);
     return sentence.substr(name.size());
   }

@@ -71,6 +71,44 @@ TEST(history, writes_the_row_of_the_root_only) {
   EXPECT_EQ(content(path), header + "0,,,,,,,,,,,,,\n");
 }
 
+TEST(history, goes_on_behind_the_rows_that_are_to_stay) {
+  const core::Comm comm;
+  const std::string path = scratch("history_goes_on") + "/history.csv";
+  const auto numbered = [](int k) {
+    HistoryRow row;
+    row.newton = k;
+    return row;
+  };
+  const auto line = [](int k) { return ",,," + std::to_string(k) + ",,,,,,,,,,\n"; };
+  {
+    History history(path, comm);
+    EXPECT_EQ(history.rows(), 0);
+    for (int k = 1; k <= 4; ++k) history.append(numbered(k));
+    EXPECT_EQ(history.rows(), 4);
+  }
+  {
+    History history = History::go_on(path, 2, comm);
+    EXPECT_EQ(history.rows(), 2);
+    history.append(numbered(7));
+    EXPECT_EQ(content(path), header + line(1) + line(2) + line(7));
+    comm.barrier();
+  }
+  comm.on_root([&] { std::ofstream(path, std::ios::app) << ",,,8,,,"; });  // cut off when the run was killed
+  EXPECT_EQ(History::go_on(path, 10, comm).rows(), 3);
+  EXPECT_EQ(content(path), header + line(1) + line(2) + line(7));
+}
+
+TEST(history, begins_anew_where_there_is_none_to_go_on_with) {
+  const core::Comm comm;
+  const std::string folder = scratch("history_anew"), foreign = folder + "/foreign.csv";
+  EXPECT_EQ(History::go_on(folder + "/absent.csv", 5, comm).rows(), 0);
+  EXPECT_EQ(content(folder + "/absent.csv"), header);
+  comm.on_root([&] { std::ofstream(foreign) << "a,b\n1,2\n"; });
+  EXPECT_EQ(History::go_on(foreign, 5, comm).rows(), 0);
+  EXPECT_EQ(content(foreign), header);
+  EXPECT_EQ(History::go_on(folder + "/none/history.csv", 5, comm, false).rows(), 0);
+}
+
 TEST(history, that_is_disabled_touches_no_file) {
   const core::Comm comm;
   const std::string folder = scratch("history_disabled");

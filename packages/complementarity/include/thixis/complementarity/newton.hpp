@@ -33,7 +33,8 @@ struct LinearRecord {
 struct NewtonObserver {
   std::function<void(const NewtonRecord&)> step;
   std::function<void(const LinearRecord&)> linear;
-  std::function<void(const std::string&)> message;  ///< a sentence for the log: fallbacks, failed linear solves
+  std::function<void(const std::string&)> message;        ///< a sentence for the log: fallbacks, failed linear solves
+  std::function<void(const algebra::Vector& X)> iterate;  ///< X^k, after `step`
 };
 
 struct NewtonReport {

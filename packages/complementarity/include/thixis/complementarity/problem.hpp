@@ -40,6 +40,10 @@ class Problem {
   /// what linear residuals are compared with. Default: |(F, 0)|, which is |B| wherever E, K and G are linear and K, G homogeneous (both
   /// C-functions are then homogeneous, too: a K + b G = C); |R| where (F, 0) = 0. Override it where that is far off.
   virtual double rhs_norm(const algebra::Vector& X, const algebra::Vector& R) const;
+
+  /// Nonlinear smoothing: `sweeps` cheap local corrections of X towards the solution, which they leave as it is. They settle the edge of
+  /// the contact set by many layers of points where a Newton-min step moves it by one. Default: nothing.
+  virtual void relax(algebra::Vector& X, int sweeps) const;
 };
 
 }  // namespace thixis::complementarity

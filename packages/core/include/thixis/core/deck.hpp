@@ -13,8 +13,9 @@ class Deck {
  public:
   /// Collective: the root reads the file. Throws FileError if it can not be read, InputError if it is no XML or holds no parameter list.
   static Deck read(const std::string& path, const Comm& comm = Comm());
-  /// The same for a text in memory; `name` stands in the messages. Not collective.
-  static Deck from_text(const std::string& text, const std::string& name);
+  /// The same for a text in memory; `name` stands in the messages, `folder` is where relative paths in it start (empty: the folder of
+  /// `name`). Not collective.
+  static Deck from_text(const std::string& text, const std::string& name, const std::string& folder = "");
 
   /// Overrides one parameter: "method/degree=3", an array as "mesh/lower={0,0}". Missing blocks are created; the type is the schema's, and
   /// mistakes show in `parse`. The last one wins. Throws InputError if there is no path or no '='.
@@ -31,12 +32,16 @@ class Deck {
 
   /// The error of a value that shows only later: "<file>:<line>: <path>: <sentence>" with the line of the nearest entry that is given.
   InputError error(const std::string& path, const std::string& sentence) const;
+  /// The same error with file and line in front of every line that begins with the path of an entry in a block that is given: "mesh/file:
+  /// ..." becomes "inputs/x.xml:9: mesh/file: ...". For what shows only later, thrown where the deck is not at hand.
+  Error located(const Error& error) const;
   /// Whether the parameter or block at `path` is given.
   bool given(const std::string& path) const;
 
   const std::string& file() const { return file_; }  ///< as given to `read`
-  std::string folder() const;                        ///< of the file, "." if it is the current one; relative paths in the deck start here
-  std::string stem() const;                          ///< the file's name without folder and extension
+  std::string folder()
+      const;                 ///< where relative paths in the deck start: the folder of the file ("." for the current one) or the given one
+  std::string stem() const;  ///< the file's name without folder and extension
 
   /// An entry of the deck: <ParameterList> or <Parameter>.
   struct Entry {
@@ -62,7 +67,7 @@ class Deck {
   void fill(const Description& description, void* params) const;
   std::string message(const Mistake& mistake) const;
 
-  std::string file_;
+  std::string file_, folder_;
   Entry root_;
   std::vector<std::string> assignments_;
   std::vector<Mistake> mistakes_;

@@ -17,9 +17,11 @@ enum class Level {
 void set_level(Level level);
 Level level();
 
-/// From now on the lines go to this file, too; first of all those printed so far (the file is overwritten). Another call moves on to
-/// another file, which gets them all, too. Throws FileError on the root if it can not be written; not collective.
-void open(const std::string& path);
+enum class Old { overwrite, keep };  ///< what becomes of the lines of an existing file
+
+/// From now on the lines go to this file, too; first of all those printed so far. Another call moves on to another file, which gets them
+/// all, too. Throws FileError on the root if it can not be written; not collective.
+void open(const std::string& path, Old old = Old::overwrite);
 /// Stops writing to the file and forgets the lines so far.
 void close();
 

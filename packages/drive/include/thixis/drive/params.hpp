@@ -17,6 +17,7 @@ struct OutputParams {
   std::string directory;       ///< empty: results/<name of the deck>
   std::string fields = "all";  ///< all, none, or names separated by commas
   bool history = true;
+  int checkpoint_every = 0;  ///< Newton steps (stationary scenes); 0: only where a run does not converge
   static const core::Schema<OutputParams>& schema();
   /// The names in `fields`; nothing for `all`. `none` is asked for by `no_fields`.
   std::vector<std::string> field_names() const;

@@ -14,7 +14,16 @@ void check_served(const RunParams& params);
 
 /// Runs a deck from its mesh to its files: mesh, solve, verify, `expect`, output, verdict. Nothing is written before mesh and scene are
 /// known to be valid. Returns the exit code; the same on all ranks.
+///
+/// `checkpoint.h5` is written where the run does not converge (exit code 3), and with output/checkpoint every = n after every n Newton
+/// steps and at the end. A new run removes the one of an older run in the same directory.
+///
+/// With a checkpoint (`stored`, not null; `deck` and `params` then are those it holds, with what was overridden) the run goes on from
+/// there: see solve_stationary. In the output directory of the interrupted run the history goes on behind the rows that the checkpoint
+/// knows, and the log behind its last line. newton_iterations, newton_finest and linear_iterations of the summary and in `expect` are
+/// totals that include what was done before the restart; times are those of this run. Throws InputError if the checkpoint does not fit the
+/// deck.
 core::ExitCode run(const RunParams& params, const models::Model& model, const core::Deck& deck, const core::Comm& comm,
-                   const std::vector<std::pair<std::string, std::string>>& versions);
+                   const std::vector<std::pair<std::string, std::string>>& versions, const output::StoredCheckpoint* stored = nullptr);
 
 }  // namespace thixis::drive

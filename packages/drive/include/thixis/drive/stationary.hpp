@@ -18,10 +18,18 @@ struct Progress {
   std::optional<double> residual, energy_error;
 };
 
+/// How far a solve has come. Behind a restart everything that was done before it counts, too.
+struct Position {
+  int level = 0;
+  int newton_on_level = 0;                           ///< Newton steps on this level
+  int newton_iterations = 0, linear_iterations = 0;  ///< on all levels
+};
+
 /// Who follows a solve; functions may be empty.
 struct Observer {
   std::function<void(const mesh::Mesh& mesh, int level, const models::Sizes& sizes)> level;
   std::function<void(const Progress&, const complementarity::NewtonRecord&)> step;
+  std::function<void(const Position&, const models::Discretization&, const algebra::Vector& X)> iterate;  ///< after `step`
   std::function<void(const Progress&)> check;
   std::function<void(const std::string&)> message;
 };
@@ -32,16 +40,22 @@ struct Outcome {
   std::unique_ptr<models::Discretization> discretization;
   Teuchos::RCP<algebra::Vector> X;
   bool solved = false;
-  bool not_wanted = false;  ///< max iterations = 0: only counted
-  complementarity::NewtonReport finest;
-  int newton_iterations = 0, linear_iterations = 0;  ///< on all levels
+  bool not_wanted = false;               ///< max iterations = 0: only counted
+  complementarity::NewtonReport finest;  ///< its steps are those of this run alone
+  Position at;
   std::optional<complementarity::Kkt> kkt;
+  double kkt_tolerance = 0;  ///< what the verifier lets pass
   std::optional<double> energy_error;
   double energy_norm = 0;
 };
 
 /// Solves a stationary scene: on the finest mesh from a cold start, or (newton/start = nested) on all meshes, coarsest first, each from the
 /// solution on the mesh before. Keeps the last iterate where Newton does not converge.
-Outcome solve_stationary(const models::Model& model, const mesh::Hierarchy& hierarchy, const RunParams& params, const Observer& observer);
+///
+/// With a checkpoint (`stored`, not null) it goes on from the level and the iterate of that one, and on finer levels as `nested` does.
+/// Newton itself begins anew there: `newton/max iterations` limits the steps since the restart, and what its safeguards had seen (cycles,
+/// damped steps under way) is forgotten. Step numbers and counts go on.
+Outcome solve_stationary(const models::Model& model, const mesh::Hierarchy& hierarchy, const RunParams& params, const Observer& observer,
+                         const output::StoredCheckpoint* stored = nullptr);
 
 }  // namespace thixis::drive

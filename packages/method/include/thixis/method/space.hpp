@@ -46,7 +46,13 @@ class Space {
   virtual ~Space() = default;
 
   virtual const mesh::Mesh& mesh() const = 0;
-  virtual algebra::MapPtr map() const = 0;      ///< of the unknowns; Dirichlet values are none
+  virtual algebra::MapPtr map() const = 0;  ///< of the unknowns; Dirichlet values are none
+  /// The identity of each unknown of this rank, in the order of map(): >= 0, different for different unknowns of the space, and, unlike
+  /// the numbers of map(), the same on any number of ranks, so that a checkpoint can name them. From the ids of mesh entities, with
+  /// n unknowns per entity: n id + k for the k-th one of it; kinds of entities follow each other (vertices, faces, cells), each range
+  /// beginning where that of all entities before ends. k is counted along what does not depend on the ranks either: along a face from
+  /// its lower to its higher vertex id, in a cell by its basis. Ids of Dirichlet nodes are not used.
+  virtual std::vector<GlobalIndex> unknown_ids() const = 0;
   virtual algebra::GraphPtr graph() const = 0;  ///< couplings of a(.,.): columns sorted, those of this rank first
   virtual Teuchos::RCP<const algebra::MultiVector> coordinates() const = 0;  ///< two columns, of the unknowns' nodes
 

@@ -8,6 +8,7 @@
 #include "thixis/complementarity/kkt.hpp"
 #include "thixis/complementarity/problem.hpp"
 #include "thixis/mesh/mesh.hpp"
+#include "thixis/output/checkpoint.hpp"
 #include "thixis/output/fields.hpp"
 
 namespace thixis::models {
@@ -32,6 +33,11 @@ class Discretization {
   /// X0 from the solution on the next coarser mesh of the hierarchy.
   virtual Teuchos::RCP<algebra::Vector> nested_start(const Discretization& coarse, const algebra::Vector& coarse_X) const = 0;
 
+  /// X as named values whose ids do not depend on the number of ranks (method::Space::unknown_ids); Dirichlet values are left out.
+  virtual std::vector<output::CheckpointBlock> save(const algebra::Vector& X) const = 0;
+  /// The X that was saved, exactly, on any number of ranks. Collective. Throws InputError if it belongs to another model, mesh or method.
+  virtual Teuchos::RCP<algebra::Vector> restore(const output::StoredCheckpoint& stored) const = 0;
+
   /// |||u - u_h|||, if the exact solution is known, and |||u_h|||.
   virtual std::optional<double> energy_error(const algebra::Vector& X) const = 0;
   virtual double energy_norm(const algebra::Vector& X) const = 0;
@@ -48,7 +54,8 @@ class Model {
   virtual ~Model() = default;
   virtual std::string name() const = 0;
   virtual std::string case_name() const = 0;  ///< empty for data of the user
-  /// Throws InputError for what only a mesh shows: unknown boundary tags, boundary data that contradict each other, unknown field names.
+  /// Throws InputError for what only a mesh shows: unknown boundary tags, boundary data that contradict each other, tensions that are not
+  /// positive and data that are not finite somewhere, unknown field names.
   /// Collective; to be asked before anything is computed or written.
   virtual void check(const mesh::Mesh& mesh, const std::vector<std::string>& field_names) const = 0;
   virtual std::unique_ptr<Discretization> discretize(const mesh::Mesh& mesh) const = 0;

@@ -18,7 +18,7 @@ struct HistoryRow {
   std::optional<double> residual;
   std::optional<double> eta_disc, eta_lin, eta_alg, eta_total;
   std::optional<double> energy_error;
-  std::optional<double> seconds;  ///< since the start of the run
+  std::optional<double> seconds;  ///< since the start of the run; behind a restart with those spent before it
 };
 
 /// The file `history.csv`: the header
@@ -28,14 +28,20 @@ class History {
  public:
   /// Overwrites the file. A history that is not enabled writes nothing and touches no file. Collective; throws FileError on all ranks.
   History(const std::string& path, const core::Comm& comm, bool enabled = true);
+  /// Goes on with the file of an interrupted run: the header and the first `rows` rows stay (fewer, if there are fewer; a row that was cut
+  /// off is not one), later ones, which the run will write again, are removed. A file that is absent or no history begins anew.
+  static History go_on(const std::string& path, GlobalIndex rows, const core::Comm& comm, bool enabled = true);
   ~History();
   History(History&&) noexcept;
   History& operator=(History&&) noexcept;
 
   /// Writes the row of the root. Collective; throws FileError on all ranks.
   void append(const HistoryRow& row);
+  /// Rows in the file so far, on all ranks; 0 if not enabled. Not collective.
+  GlobalIndex rows() const;
 
  private:
+  History(const std::string& path, GlobalIndex rows_kept, bool enabled, const core::Comm& comm);
   struct Impl;
   std::unique_ptr<Impl> impl_;  ///< none if not enabled
 };

@@ -31,6 +31,7 @@ struct Summary {
     GlobalIndex global = 0;  ///< rows of the Krylov system
   } unknowns;
   GlobalIndex nonzeros = 0;
+  // Behind a restart the three counts are totals that include what was done before it.
   GlobalIndex newton_iterations = 0;  ///< on all levels, in all time steps
   GlobalIndex newton_finest = 0;
   GlobalIndex linear_iterations = 0;

@@ -1,0 +1,82 @@
+#include "checkpoint.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "thixis/algebra/tpetra.hpp"
+
+namespace thixis::drive {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string absolute(const std::string& path) { return fs::absolute(path).lexically_normal().string(); }
+
+}  // namespace
+
+CheckpointFile::CheckpointFile(std::string path, const RunParams& params, const core::Deck& deck, const mesh::Hierarchy& hierarchy)
+    : path_(std::move(path)), hierarchy_(hierarchy) {
+  // a restart may be called from another folder
+  RunParams as_run = params;
+  as_run.output.directory = absolute(params.output.directory);
+  frame_.deck = core::to_xml(RunParams::schema(), as_run);
+  frame_.folder = absolute(deck.folder());
+}
+
+void CheckpointFile::remove(const core::Comm& comm) const {
+  comm.on_root([&] {
+    std::error_code absent;
+    fs::remove(path_, absent);
+  });
+}
+
+bool CheckpointFile::write(const Position& at, const models::Discretization& discretization, const algebra::Vector& X,
+                           GlobalIndex history_rows, double seconds) const {
+  if (!std::isfinite(algebra::norm2(X))) return false;
+  const mesh::Mesh& mesh = hierarchy_.levels[at.level];
+  output::Checkpoint checkpoint = frame_;
+  checkpoint.level = at.level;
+  checkpoint.attributes = {{"cells", static_cast<double>(mesh.global_cells)},   {"newton_on_level", at.newton_on_level},
+                           {"newton_iterations", at.newton_iterations},         {"linear_iterations", at.linear_iterations},
+                           {"history_rows", static_cast<double>(history_rows)}, {"seconds", seconds}};
+  checkpoint.blocks = discretization.save(X);
+  output::write_checkpoint(path_, checkpoint, mesh.comm);
+  return true;
+}
+
+Position position_of(const output::StoredCheckpoint& stored) {
+  const auto count = [&](const char* name) { return static_cast<int>(stored.attribute(name)); };
+  return {stored.level(), count("newton_on_level"), count("newton_iterations"), count("linear_iterations")};
+}
+GlobalIndex history_rows_of(const output::StoredCheckpoint& stored) { return static_cast<GlobalIndex>(stored.attribute("history_rows")); }
+double seconds_of(const output::StoredCheckpoint& stored) { return stored.attribute("seconds"); }
+
+bool same_directory(const output::StoredCheckpoint& stored, const std::string& directory) {
+  const auto before = core::Deck::from_text(stored.deck(), stored.path()).parse(RunParams::schema()).output.directory;
+  const std::string now = absolute(directory + "/");
+  return now == absolute(before + "/") || now == absolute(fs::absolute(stored.path()).parent_path().string() + "/");
+}
+
+void check_restart(const output::StoredCheckpoint& stored, const RunParams& params, const mesh::Hierarchy& hierarchy) {
+  const auto levels = static_cast<int>(hierarchy.levels.size());
+  const int level = stored.level();
+  if (level < 0 || level >= levels)
+    throw core::InputError(
+        fmt::format("mesh/refinements: the checkpoint '{}' belongs to level {} and the deck has the levels 0 to {}; "
+                    "leave mesh as it was, or refine more.",
+                    stored.path(), level, levels - 1));
+  const auto cells = static_cast<GlobalIndex>(stored.attribute("cells"));
+  if (hierarchy.levels[level].global_cells != cells)
+    throw core::InputError(fmt::format(
+        "mesh: the checkpoint '{}' belongs to another mesh: its level {} has {} cells, that of the deck {}; leave mesh as it was.",
+        stored.path(), level, cells, hierarchy.levels[level].global_cells));
+  if (level + 1 < levels && params.newton.start == complementarity::Start::cold)
+    throw core::InputError(fmt::format(
+        "newton/start: the checkpoint '{}' belongs to level {} of 0 to {}; write newton/start = nested to go on to the finer ones, "
+        "or leave mesh/refinements as it was.",
+        stored.path(), level, levels - 1));
+}
+
+}  // namespace thixis::drive

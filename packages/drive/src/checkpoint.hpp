@@ -1,0 +1,39 @@
+#pragma once
+#include "thixis/core/deck.hpp"
+#include "thixis/drive/stationary.hpp"
+#include "thixis/output/checkpoint.hpp"
+
+namespace thixis::drive {
+
+/// The file `checkpoint.h5` of a run.
+class CheckpointFile {
+ public:
+  CheckpointFile(std::string path, const RunParams& params, const core::Deck& deck, const mesh::Hierarchy& hierarchy);
+
+  const std::string& path() const { return path_; }
+  /// Removes what an older run has left. Collective.
+  void remove(const core::Comm& comm) const;
+  /// Writes an iterate; one that is not finite is not worth it: returns false and leaves the file as it is. `history_rows`, `seconds`:
+  /// rows of history.csv and wall clock so far. Collective.
+  bool write(const Position& at, const models::Discretization& discretization, const algebra::Vector& X, GlobalIndex history_rows,
+             double seconds) const;
+
+ private:
+  std::string path_;
+  output::Checkpoint frame_;  ///< deck and folder
+  const mesh::Hierarchy& hierarchy_;
+};
+
+/// What a checkpoint knows beside the iterate.
+Position position_of(const output::StoredCheckpoint& stored);
+GlobalIndex history_rows_of(const output::StoredCheckpoint& stored);
+double seconds_of(const output::StoredCheckpoint& stored);
+
+/// Whether the run that left the checkpoint wrote into this directory, or the checkpoint lies in it (results that were moved).
+bool same_directory(const output::StoredCheckpoint& stored, const std::string& directory);
+
+/// Throws InputError unless the deck's hierarchy has the level of the checkpoint with as many cells, and the start is nested if there are
+/// finer ones.
+void check_restart(const output::StoredCheckpoint& stored, const RunParams& params, const mesh::Hierarchy& hierarchy);
+
+}  // namespace thixis::drive

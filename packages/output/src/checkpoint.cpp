@@ -1,0 +1,252 @@
+#include "thixis/output/checkpoint.hpp"
+
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <filesystem>
+#include <limits>
+#include <numeric>
+
+#include "hash.hpp"
+#include "hdf5_file.hpp"
+#include "hdf5_reader.hpp"
+#include "text_file.hpp"
+#include "thixis/core/error.hpp"
+
+namespace thixis::output {
+namespace {
+
+const std::string format_text = "thixis checkpoint";
+constexpr GlobalIndex format_version = 1;
+
+[[noreturn]] void wrong(const std::string& sentence) { throw core::Error(core::ExitCode::internal, sentence); }
+
+std::string place_of(const std::string& block) { return "/blocks/" + block; }
+
+/// The same for equal (id, value) pairs, whatever rank holds them; collective.
+std::uint64_t checksum(const std::vector<GlobalIndex>& ids, const std::vector<double>& values, const core::Comm& comm) {
+  std::uint64_t sum = 0;
+  for (std::size_t i = 0; i < ids.size(); ++i) sum += mixed(mixed(0, static_cast<std::uint64_t>(ids[i])), bits(values[i]));
+  const auto sums = comm.gather(sum);
+  return std::accumulate(sums.begin(), sums.end(), std::uint64_t{0});
+}
+
+/// A part of a block: consecutive rows of the sorted whole.
+struct Rows {
+  Slab slab;
+  std::vector<GlobalIndex> ids;
+  std::vector<double> values;
+};
+
+/// The rank that sorts an id: the range of ids is shared evenly.
+std::vector<int> sorting_ranks(const CheckpointBlock& block, const core::Comm& comm) {
+  comm.together([&] {
+    check_entry_name("block", block.name);
+    if (block.ids.size() != block.values.size())
+      wrong(fmt::format("The block '{}' has {} ids and {} values.", block.name, block.ids.size(), block.values.size()));
+    for (const GlobalIndex id : block.ids)
+      if (id < 0) wrong(fmt::format("The block '{}' has the id {}.", block.name, id));
+  });
+  const GlobalIndex largest = block.ids.empty() ? -1 : *std::max_element(block.ids.begin(), block.ids.end());
+  const GlobalIndex height = slab_height(comm.max(largest) + 1, comm);
+  std::vector<int> target;
+  target.reserve(block.ids.size());
+  for (const GlobalIndex id : block.ids) target.push_back(static_cast<int>(id / height));
+  return target;
+}
+
+/// Collective: the block in the order of its ids.
+Rows sorted(const CheckpointBlock& block, const core::Comm& comm) {
+  const Exchange exchange(sorting_ranks(block, comm), comm);
+  const auto ids = exchange.forward(block.ids.data());
+  const auto values = exchange.forward(block.values.data());
+  std::vector<LocalIndex> order(ids.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](LocalIndex i, LocalIndex j) { return ids[i] < ids[j]; });
+  Rows rows;
+  for (const LocalIndex i : order) {
+    rows.ids.push_back(ids[i]);
+    rows.values.push_back(values[i]);
+  }
+  comm.together([&] {
+    const auto twice = std::adjacent_find(rows.ids.begin(), rows.ids.end());
+    if (twice != rows.ids.end()) wrong(fmt::format("The block '{}' has the id {} twice.", block.name, *twice));
+  });
+  const auto count = static_cast<GlobalIndex>(rows.ids.size());
+  rows.slab = {comm.offset(count), count, comm.sum(count)};
+  return rows;
+}
+
+/// At most so many bytes does the file take.
+long long room_of(const Checkpoint& checkpoint, const core::Comm& comm) {
+  long long room = 4 * group_bytes + 3 * array_bytes + static_cast<long long>(checkpoint.deck.size() + checkpoint.folder.size()) +
+                   256 * static_cast<long long>(checkpoint.attributes.size());
+  for (const auto& block : checkpoint.blocks)
+    room += group_bytes + 2 * array_bytes + 16 * comm.sum(static_cast<GlobalIndex>(block.ids.size()));
+  return room;
+}
+
+void write_content(const std::string& path, const Checkpoint& checkpoint, const core::Comm& comm) {
+  Hdf5File file(path, Hdf5File::Mode::create, room_of(checkpoint, comm), comm);
+  file.add_text("/format", format_text);
+  file.add_attribute("/", "version", format_version);
+  file.add_attribute("/", "level", static_cast<GlobalIndex>(checkpoint.level));
+  file.add_text("/deck", checkpoint.deck);
+  file.add_text("/folder", checkpoint.folder);
+  file.add_group("/attributes");
+  for (const auto& [name, value] : checkpoint.attributes) file.add_attribute("/attributes", name, value);
+  file.add_group("/blocks");
+  for (const auto& block : checkpoint.blocks) {
+    const Rows rows = sorted(block, comm);
+    const std::string place = place_of(block.name);
+    file.add_group(place);
+    file.add_attribute(place, "checksum", static_cast<GlobalIndex>(checksum(rows.ids, rows.values, comm)));
+    file.add_array(place + "/ids", rows.slab, 1, rows.ids);
+    file.add_array(place + "/values", rows.slab, 1, rows.values);
+  }
+  file.sync();
+  file.close();
+}
+
+/// Makes the new name last: without it a crash of the machine might bring the old file back.
+void sync_folder(const std::string& path) {
+  const auto folder = std::filesystem::absolute(path).parent_path().string();
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY);
+  if (descriptor < 0) return;
+  ::fsync(descriptor);
+  ::close(descriptor);
+}
+
+}  // namespace
+
+void write_checkpoint(const std::string& path, const Checkpoint& checkpoint, const core::Comm& comm) {
+  const std::string temporary = path + ".part";
+  try {
+    write_content(temporary, checkpoint, comm);
+  } catch (const core::Error&) {
+    if (comm.root()) std::remove(temporary.c_str());
+    throw;
+  }
+  comm.on_root([&] {
+    if (std::rename(temporary.c_str(), path.c_str()) != 0) throw core::FileError(not_written(path, errno));
+    sync_folder(path);
+  });
+}
+
+struct StoredCheckpoint::File : Hdf5Reader {
+  using Hdf5Reader::Hdf5Reader;
+};
+
+namespace {
+
+std::string damaged(const std::string& path) {
+  return fmt::format("The checkpoint '{}' is damaged; go on from another one, or begin anew with 'thixis run'.", path);
+}
+
+void check_kind(const std::string& path) {
+  std::error_code unknown;
+  if (!std::filesystem::exists(path, unknown))
+    throw core::FileError(fmt::format("There is no checkpoint '{}'; give the checkpoint.h5 in the output directory of a run.", path));
+  if (std::filesystem::is_directory(path, unknown))
+    throw core::FileError(fmt::format("'{}' is a folder; give the checkpoint.h5 in it.", path));
+  if (::access(path.c_str(), R_OK) != 0) throw core::FileError(fmt::format("'{}' can not be read; check its permissions.", path));
+  if (!Hdf5Reader::recognizes(path))
+    throw core::FileError(fmt::format("'{}' is no checkpoint of Thixis; give the checkpoint.h5 in the output directory of a run.", path));
+}
+
+void check_version(const Hdf5Reader& file, const std::string& path) {
+  if (!file.has("format") || file.text("/format") != format_text)
+    throw core::FileError(fmt::format("'{}' is no checkpoint of Thixis; give the checkpoint.h5 in the output directory of a run.", path));
+  const GlobalIndex version = file.integer("/", "version");
+  if (version != format_version)
+    throw core::FileError(fmt::format("The checkpoint '{}' has version {}, this program reads version {}; use the Thixis that wrote it.",
+                                      path, version, format_version));
+}
+
+}  // namespace
+
+StoredCheckpoint::StoredCheckpoint(std::string path, const core::Comm& comm) : path_(std::move(path)), comm_(comm) {
+  comm_.together([&] {
+    check_kind(path_);
+    file_ = std::make_unique<File>(path_, damaged(path_));
+    check_version(*file_, path_);
+    head_.deck = file_->text("/deck");
+    head_.folder = file_->text("/folder");
+    head_.level = static_cast<int>(file_->integer("/", "level"));
+    for (const auto& name : file_->attributes("/attributes")) head_.attributes[name] = file_->number("/attributes", name);
+    for (const auto& name : file_->entries("/blocks")) head_.blocks.push_back({name, {}, {}});
+  });
+}
+StoredCheckpoint::~StoredCheckpoint() = default;
+StoredCheckpoint::StoredCheckpoint(StoredCheckpoint&&) noexcept = default;
+StoredCheckpoint& StoredCheckpoint::operator=(StoredCheckpoint&&) noexcept = default;
+
+StoredCheckpoint read_checkpoint(const std::string& path, const core::Comm& comm) { return {path, comm}; }
+
+double StoredCheckpoint::attribute(const std::string& name) const {
+  const auto found = head_.attributes.find(name);
+  if (found == head_.attributes.end()) throw core::FileError(fmt::format("The checkpoint '{}' does not hold '{}'.", path_, name));
+  return found->second;
+}
+
+GlobalIndex StoredCheckpoint::size(const std::string& block) const {
+  const bool known = std::any_of(head_.blocks.begin(), head_.blocks.end(), [&](const auto& b) { return b.name == block; });
+  return known ? file_->length(place_of(block) + "/ids") : -1;
+}
+
+namespace {
+
+/// Collective: the rows that this rank reads, proven to be what was written.
+Rows read_rows(const Hdf5Reader& file, const std::string& block, const std::string& complaint, const core::Comm& comm) {
+  const std::string place = place_of(block);
+  Rows rows;
+  const GlobalIndex expected = comm.together([&] {
+    rows.slab = even_slab(file.length(place + "/ids"), comm);
+    if (file.length(place + "/values") != rows.slab.total) throw core::FileError(complaint);
+    rows.ids = file.integers(place + "/ids", rows.slab);
+    rows.values = file.numbers(place + "/values", rows.slab);
+    return file.integer(place, "checksum");
+  });
+  if (static_cast<GlobalIndex>(checksum(rows.ids, rows.values, comm)) != expected) throw core::FileError(complaint);
+  return rows;
+}
+
+/// The rank that has read each of the ids, if any has. Collective.
+std::vector<int> reading_ranks(const std::vector<GlobalIndex>& ids, const Rows& rows, const core::Comm& comm) {
+  const auto first = comm.gather(rows.ids.empty() ? std::numeric_limits<GlobalIndex>::max() : rows.ids.front());
+  std::vector<int> target;
+  target.reserve(ids.size());
+  for (const GlobalIndex id : ids) {
+    const auto next = std::upper_bound(first.begin(), first.end(), id);
+    target.push_back(std::max(0, static_cast<int>(next - first.begin()) - 1));
+  }
+  return target;
+}
+
+}  // namespace
+
+std::vector<double> StoredCheckpoint::fetch(const std::string& block, const std::vector<GlobalIndex>& ids) const {
+  if (size(block) < 0) throw core::FileError(fmt::format("The checkpoint '{}' does not hold '{}'.", path_, block));
+  const Rows rows = read_rows(*file_, block, damaged(path_), comm_);
+  const Exchange exchange(reading_ranks(ids, rows, comm_), comm_);
+  const auto wanted = exchange.forward(ids.data());
+  const auto answers = comm_.together([&] {
+    std::vector<double> found;
+    found.reserve(wanted.size());
+    for (const GlobalIndex id : wanted) {
+      const auto row = std::lower_bound(rows.ids.begin(), rows.ids.end(), id);
+      if (row == rows.ids.end() || *row != id)
+        throw core::FileError(fmt::format("The checkpoint '{}' has no value of '{}' with the id {}: it belongs to another mesh or method.",
+                                          path_, block, id));
+      found.push_back(rows.values[row - rows.ids.begin()]);
+    }
+    return found;
+  });
+  return exchange.backward(answers.data());
+}
+
+}  // namespace thixis::output

@@ -1,0 +1,42 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "slabs.hpp"
+
+namespace thixis::output {
+
+/// An HDF5 file opened for reading by this rank alone. Nothing is collective. What is not there or is something else than asked for throws
+/// a FileError with the sentence of the constructor; HDF5 itself prints nothing, and files are not locked.
+class Hdf5Reader {
+ public:
+  /// `complaint`: the sentence about a file that does not hold what it should. An existing file that is no HDF5 is one, too.
+  Hdf5Reader(const std::string& path, std::string complaint);
+  ~Hdf5Reader();
+  Hdf5Reader(const Hdf5Reader&) = delete;
+  Hdf5Reader& operator=(const Hdf5Reader&) = delete;
+
+  /// Whether the file begins as HDF5 files do (a damaged one, too).
+  static bool recognizes(const std::string& path);
+
+  bool has(const std::string& name) const;  ///< an entry of the outermost group
+  std::string text(const std::string& name) const;
+  double number(const std::string& group, const std::string& name) const;
+  GlobalIndex integer(const std::string& group, const std::string& name) const;
+  std::vector<std::string> attributes(const std::string& group) const;  ///< names, sorted
+  std::vector<std::string> entries(const std::string& group) const;     ///< names, sorted
+  GlobalIndex length(const std::string& vector) const;
+  std::vector<double> numbers(const std::string& vector, const Slab& slab) const;
+  std::vector<GlobalIndex> integers(const std::string& vector, const Slab& slab) const;
+
+ private:
+  using Id = long long;  ///< hid_t, HDF5 header kept out
+  void require(bool good) const;
+  void read_attribute(const std::string& group, const std::string& name, Id type, void* value) const;
+  void read_rows(const std::string& vector, const Slab& slab, Id type, void* rows) const;
+
+  std::string complaint_;
+  Id file_ = -1;
+};
+
+}  // namespace thixis::output

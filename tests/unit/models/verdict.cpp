@@ -1,0 +1,121 @@
+/// The verifier of the contact conditions, on the real two-membrane model: it takes the solution and nothing else.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "thixis/algebra/tpetra.hpp"
+#include "thixis/complementarity/newton.hpp"
+#include "thixis/fem/lagrange_space.hpp"
+#include "thixis/mesh/build.hpp"
+#include "thixis/models/membranes.hpp"
+
+namespace thixis::models {
+namespace {
+
+using algebra::Vector;
+using complementarity::Kkt;
+
+enum Field { u1 = 0, u2 = 1, lambda = 2 };
+
+/// A solved problem with contact in a part of the domain.
+class Verdict : public ::testing::TestWithParam<const char*> {
+ protected:
+  Verdict() {
+    mesh::MeshParams mesh_params;
+    mesh_params.refinements = 2;
+    mesh_params.cells_per_rank = 50;
+    if (std::string(GetParam()) == "disk") mesh_params.generator = mesh::Generator::disk;
+    levels_ = mesh::build(mesh_params, core::Comm(), ".");
+    scene::SceneParams scene;
+    scene.case_name = GetParam();
+    algebra::LinearParams linear;
+    linear.solver = algebra::SolverKind::direct;
+    model_ = membranes(scene::membrane_scene(scene), fem::make_lagrange_space, {}, linear, {});
+    discretization_ = model_->discretize(levels_.finest());
+    X_ = discretization_->cold_start();
+    report_ = complementarity::newton(discretization_->problem(), *X_, {}, {}, 10);
+  }
+
+  Kkt verdict(const Vector& X) const { return complementarity::verify(discretization_->kkt_data(X)); }
+
+  /// X with f(value, in contact) in place of one field.
+  template <class F>
+  Kkt after(Field field, F f) const {
+    Vector X(*X_, Teuchos::Copy);
+    {
+      const auto values = algebra::host_view(X);
+      const auto& active = report_.active_set.flags();
+      for (std::size_t l = 0; l < active.size(); ++l) values(3 * l + field) = f(values(3 * l + field), active[l] != 0);
+    }
+    return verdict(X);
+  }
+
+  mesh::Hierarchy levels_;
+  std::unique_ptr<Model> model_;
+  std::unique_ptr<Discretization> discretization_;
+  Teuchos::RCP<Vector> X_;
+  complementarity::NewtonReport report_;
+  static constexpr double tolerance = 1e-6;
+};
+
+}  // namespace
+
+TEST_P(Verdict, accepts_the_solution) {
+  ASSERT_TRUE(report_.converged) << report_.why;
+  ASSERT_GT(report_.active, 0);
+  EXPECT_LT(verdict(*X_).worst(), 1e-9);
+  EXPECT_TRUE(verdict(*X_).holds(tolerance));
+}
+
+TEST_P(Verdict, rejects_a_multiplier_of_the_wrong_sign) {
+  const Kkt kkt = after(lambda, [](double value, bool) { return -value; });
+  EXPECT_GT(kkt.negative, 0.1);
+  EXPECT_GT(kkt.equilibrium, 0.1);
+  EXPECT_LT(kkt.infeasible, tolerance);
+  EXPECT_FALSE(kkt.holds(tolerance));
+}
+
+TEST_P(Verdict, rejects_a_multiplier_that_is_not_that_of_the_forces) {
+  const Kkt kkt = after(lambda, [](double value, bool) { return 0.99 * value; });
+  EXPECT_GT(kkt.equilibrium, 1e-3);
+  EXPECT_LT(std::max(kkt.infeasible, kkt.negative), tolerance);
+  EXPECT_FALSE(kkt.holds(tolerance));
+}
+
+TEST_P(Verdict, rejects_a_pull_where_the_membranes_do_not_touch) {
+  const double largest = X_->normInf();
+  const Kkt kkt = after(lambda, [largest](double value, bool contact) { return contact ? value : value + 0.1 * largest; });
+  EXPECT_GT(kkt.complementary, 1e-6);
+  EXPECT_GT(kkt.equilibrium, 1e-2);
+  EXPECT_FALSE(kkt.holds(tolerance));
+}
+
+TEST_P(Verdict, rejects_membranes_that_cross) {
+  const Kkt kkt = after(u1, [](double value, bool contact) { return contact ? value - 1e-3 : value; });
+  EXPECT_GT(kkt.infeasible, 1e-4);
+  EXPECT_FALSE(kkt.holds(tolerance));
+}
+
+TEST_P(Verdict, rejects_a_solution_that_is_slightly_out_of_equilibrium) {
+  for (const Field field : {u1, u2}) {
+    const double sign = field == u1 ? 1 : -1;  // apart from each other: the gap stays non-negative
+    const Kkt kkt = after(field, [sign](double value, bool) { return value + sign * 1e-4; });
+    EXPECT_GT(kkt.equilibrium, 1e-4) << field;
+    EXPECT_EQ(kkt.infeasible, 0) << field;
+    EXPECT_FALSE(kkt.holds(tolerance)) << field;
+  }
+}
+
+TEST_P(Verdict, rejects_what_is_no_number) {
+  const Kkt kkt = after(u2, [](double value, bool contact) { return contact ? std::nan("") : value; });
+  EXPECT_FALSE(kkt.holds(1e300));
+}
+
+TEST_P(Verdict, rejects_the_start) { EXPECT_FALSE(verdict(*discretization_->cold_start()).holds(tolerance)); }
+
+INSTANTIATE_TEST_SUITE_P(Membranes, Verdict, ::testing::Values("discontinuous multiplier", "disk"),
+                         [](const auto& one) { return std::string(one.param).substr(0, 4); });
+
+}  // namespace thixis::models

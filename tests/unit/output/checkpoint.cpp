@@ -1,0 +1,210 @@
+#include "thixis/output/checkpoint.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "hdf5_file.hpp"
+#include "scratch.hpp"
+
+namespace thixis::output {
+namespace {
+
+constexpr GlobalIndex far = 1ll << 40;  ///< ids may lie far apart
+
+/// A value for each id that shows every bit of it.
+double value_of(GlobalIndex id) {
+  return id == 7 ? -0.0 : id == 13 ? std::numeric_limits<double>::quiet_NaN() : std::sin(1.0 * id) * 1e-200;
+}
+
+/// `count` ids 0, 7, 26, ... and one far away, scattered over the ranks in falling order; the last rank has none if there are several.
+CheckpointBlock scattered(const std::string& name, int count, const core::Comm& comm) {
+  CheckpointBlock block;
+  block.name = name;
+  const int givers = std::max(1, comm.size() - 1);
+  for (GlobalIndex k = count - 1; k >= 0; --k)
+    if (k * k % givers == comm.rank()) block.ids.push_back(k + 1 == count ? far : k * (k + 12) / 2);
+  for (const GlobalIndex id : block.ids) block.values.push_back(value_of(id));
+  return block;
+}
+
+Checkpoint example(const core::Comm& comm) {
+  Checkpoint checkpoint;
+  checkpoint.deck = "<ParameterList name=\"thixis\">\n  ä &amp; \"quotes\"\n</ParameterList>\n";
+  checkpoint.folder = "/some where";
+  checkpoint.level = 3;
+  checkpoint.attributes = {{"time", 0.1}, {"newton steps", 17}, {"largest", std::numeric_limits<double>::infinity()}};
+  checkpoint.blocks = {scattered("u1", 100, comm), scattered("lambda", 1, comm), {"nothing", {}, {}}};
+  return checkpoint;
+}
+
+bool same_bits(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+
+/// Turns one bit in the first place of the file where these bytes stand.
+template <class T>
+void damage(const std::string& path, T where, const core::Comm& comm) {
+  comm.on_root([&] {
+    std::string text = content(path);
+    const std::size_t at = text.find(std::string(reinterpret_cast<const char*>(&where), sizeof where));
+    if (at == std::string::npos) throw core::FileError("These bytes are not in the file.");
+    text[at + sizeof where / 2] ^= 0x10;
+    std::ofstream(path, std::ios::binary) << text;
+  });
+}
+
+}  // namespace
+
+TEST(checkpoint, gives_back_deck_attributes_and_level) {
+  const core::Comm comm;
+  const std::string path = scratch("checkpoint_head") + "/checkpoint.h5";
+  const Checkpoint saved = example(comm);
+  write_checkpoint(path, saved, comm);
+  const auto stored = read_checkpoint(path, comm);
+  EXPECT_EQ(stored.path(), path);
+  EXPECT_EQ(stored.deck(), saved.deck);
+  EXPECT_EQ(stored.folder(), saved.folder);
+  EXPECT_EQ(stored.level(), 3);
+  for (const auto& [name, value] : saved.attributes) EXPECT_EQ(stored.attribute(name), value) << name;
+  EXPECT_TRUE(stored.has_attribute("time"));
+  EXPECT_FALSE(stored.has_attribute("Time"));
+  EXPECT_EQ(stored.size("u1"), 100);
+  EXPECT_EQ(stored.size("lambda"), 1);
+  EXPECT_EQ(stored.size("nothing"), 0);
+  EXPECT_EQ(stored.size("u2"), -1);
+  EXPECT_EQ(sentence_of(core::ExitCode::input_output, [&] { (void)stored.attribute("step"); }),
+            "The checkpoint '" + path + "' does not hold 'step'.");
+}
+
+TEST(checkpoint, gives_any_value_to_any_rank_bit_for_bit) {
+  const core::Comm comm;
+  const std::string path = scratch("checkpoint_values") + "/checkpoint.h5";
+  write_checkpoint(path, example(comm), comm);
+  const auto stored = read_checkpoint(path, comm);
+  // ids of all ranks, on the root none, on the others all of them in another order and one twice
+  auto ids = comm.gather(scattered("u1", 100, comm).ids);
+  std::rotate(ids.begin(), ids.begin() + 29, ids.end());
+  ids.push_back(far);
+  if (comm.size() > 1 && comm.root()) ids.clear();
+  const auto values = stored.fetch("u1", ids);
+  ASSERT_EQ(values.size(), ids.size());
+  for (std::size_t i = 0; i < ids.size(); ++i) EXPECT_TRUE(same_bits(values[i], value_of(ids[i]))) << ids[i];
+  const auto one = stored.fetch("lambda", {far, far});
+  EXPECT_TRUE(same_bits(one[0], value_of(far)) && same_bits(one[1], value_of(far)));
+  EXPECT_TRUE(stored.fetch("nothing", {}).empty());
+}
+
+TEST(checkpoint, does_not_depend_on_who_owns_what) {
+  const core::Comm comm;
+  const std::string folder = scratch("checkpoint_ranks");
+  const Checkpoint saved = example(comm);
+  write_checkpoint(folder + "/scattered.h5", saved, comm);
+  Checkpoint on_root = saved;
+  for (auto& block : on_root.blocks) {
+    block.ids = comm.gather_on_root(block.ids);
+    block.values = comm.gather_on_root(block.values);
+  }
+  write_checkpoint(folder + "/root.h5", on_root, comm);
+  EXPECT_EQ(content(folder + "/scattered.h5"), content(folder + "/root.h5"));
+}
+
+TEST(checkpoint, replaces_an_older_one_as_a_whole_or_not_at_all) {
+  const core::Comm comm;
+  const std::string path = scratch("checkpoint_replaced") + "/checkpoint.h5";
+  Checkpoint checkpoint = example(comm);
+  write_checkpoint(path, checkpoint, comm);
+  checkpoint.level = 4;
+  write_checkpoint(path, checkpoint, comm);
+  EXPECT_EQ(read_checkpoint(path, comm).level(), 4);
+  EXPECT_FALSE(std::filesystem::exists(path + ".part"));
+  comm.barrier();
+  checkpoint.level = 5;
+  {
+    const FullDisk full(1000);
+    sentence_of(core::ExitCode::input_output, [&] { write_checkpoint(path, checkpoint, comm); });
+  }
+  comm.barrier();
+  EXPECT_EQ(read_checkpoint(path, comm).level(), 4);
+  EXPECT_FALSE(std::filesystem::exists(path + ".part"));
+}
+
+TEST(checkpoint, refuses_blocks_that_contradict_themselves) {
+  const core::Comm comm;
+  const std::string folder = scratch("checkpoint_wrong_blocks");
+  const auto sentence = [&](const CheckpointBlock& block) {
+    Checkpoint checkpoint;
+    checkpoint.blocks = {block};
+    return sentence_of(core::ExitCode::internal, [&] { write_checkpoint(folder + "/checkpoint.h5", checkpoint, comm); });
+  };
+  const bool last = comm.rank() + 1 == comm.size();
+  EXPECT_EQ(sentence({"u", {2 * comm.rank(), last ? 0 : 2 * comm.rank() + 1}, {1, 2}}), "The block 'u' has the id 0 twice.");
+  EXPECT_EQ(sentence({"u", {last ? -1 : 0}, {1}}), "The block 'u' has the id -1.");
+  EXPECT_EQ(sentence({"u", {0}, {}}), "The block 'u' has 1 ids and 0 values.");
+  EXPECT_NE(sentence({"u/v", {}, {}}).find("can not be called 'u/v'"), std::string::npos);
+  EXPECT_TRUE(std::filesystem::is_empty(folder));
+}
+
+TEST(checkpoint, that_is_none_gets_a_sentence_on_all_ranks) {
+  const core::Comm comm;
+  const std::string folder = scratch("checkpoint_none");
+  const auto sentence = [&](const std::string& path) {
+    return sentence_of(core::ExitCode::input_output, [&] { read_checkpoint(path, comm); });
+  };
+  const std::string advice = "give the checkpoint.h5 in the output directory of a run.";
+  EXPECT_EQ(sentence(folder + "/absent.h5"), "There is no checkpoint '" + folder + "/absent.h5'; " + advice);
+  EXPECT_EQ(sentence(folder), "'" + folder + "' is a folder; give the checkpoint.h5 in it.");
+  comm.on_root([&] { std::ofstream(folder + "/deck.xml") << "<ParameterList name=\"thixis\"/>"; });
+  EXPECT_EQ(sentence(folder + "/deck.xml"), "'" + folder + "/deck.xml' is no checkpoint of Thixis; " + advice);
+  Hdf5File(folder + "/fields.h5", Hdf5File::Mode::create, 10000, comm).close();
+  EXPECT_EQ(sentence(folder + "/fields.h5"), "'" + folder + "/fields.h5' is no checkpoint of Thixis; " + advice);
+  {
+    Hdf5File later(folder + "/later.h5", Hdf5File::Mode::create, 10000, comm);
+    later.add_text("/format", "thixis checkpoint");
+    later.add_attribute("/", "version", GlobalIndex{2});
+    later.close();
+  }
+  EXPECT_EQ(sentence(folder + "/later.h5"),
+            "The checkpoint '" + folder + "/later.h5' has version 2, this program reads version 1; use the Thixis that wrote it.");
+}
+
+TEST(checkpoint, that_is_damaged_is_not_believed) {
+  const core::Comm comm;
+  const std::string path = scratch("checkpoint_damaged") + "/checkpoint.h5";
+  const std::string complaint = "The checkpoint '" + path + "' is damaged; go on from another one, or begin anew with 'thixis run'.";
+  Checkpoint checkpoint;
+  checkpoint.deck = "deck";
+  checkpoint.blocks = {{"u", {far + 3 * comm.rank()}, {12345.678}}};
+  const auto fetch = [&] { return read_checkpoint(path, comm).fetch("u", {far}); };
+
+  write_checkpoint(path, checkpoint, comm);
+  EXPECT_EQ(fetch(), std::vector<double>{12345.678});
+  comm.barrier();
+  damage(path, 12345.678, comm);
+  EXPECT_EQ(sentence_of(core::ExitCode::input_output, fetch), complaint);
+
+  write_checkpoint(path, checkpoint, comm);
+  damage(path, far, comm);
+  EXPECT_EQ(sentence_of(core::ExitCode::input_output, fetch), complaint);
+
+  write_checkpoint(path, checkpoint, comm);
+  comm.on_root([&] { std::filesystem::resize_file(path, std::filesystem::file_size(path) / 2); });
+  EXPECT_EQ(sentence_of(core::ExitCode::input_output, fetch), complaint);
+}
+
+TEST(checkpoint, says_which_value_it_does_not_hold) {
+  const core::Comm comm;
+  const std::string path = scratch("checkpoint_missing") + "/checkpoint.h5";
+  write_checkpoint(path, example(comm), comm);
+  const auto stored = read_checkpoint(path, comm);
+  const auto sentence = [&](const std::string& block, const std::vector<GlobalIndex>& ids) {
+    return sentence_of(core::ExitCode::input_output, [&] { stored.fetch(block, ids); });
+  };
+  EXPECT_EQ(sentence("u2", {0}), "The checkpoint '" + path + "' does not hold 'u2'.");
+  for (const GlobalIndex absent : {GlobalIndex{1}, far - 1, far + 1})
+    EXPECT_EQ(sentence("u1", comm.rank() + 1 == comm.size() ? std::vector<GlobalIndex>{0, absent} : std::vector<GlobalIndex>{}),
+              "The checkpoint '" + path + "' has no value of 'u1' with the id " + std::to_string(absent) +
+                  ": it belongs to another mesh or method.");
+}
+
+}  // namespace thixis::output
