@@ -62,14 +62,18 @@ configure() {
   }
 }
 
-# Builds the given targets.
+# Builds the given targets, and says so if there is more to do than to look at the version.
 build() {
   local log=build/release/build.log
-  # One file, the version, is looked at in every build.
-  if [ "$(ninja -C build/release -n "$@" 2>/dev/null | grep -c 'Building CXX')" -gt 1 ]; then
-    echo "thixis: building (the first time takes some minutes)" >&2
-  fi
-  ninja -C build/release "$@" >"$log" 2>&1 </dev/null || {
+  ninja -C build/release "$@" 2>&1 </dev/null | {
+    files=0
+    while IFS= read -r line; do
+      echo "$line"
+      if [[ "$line" == *"Building CXX"* ]] && [ $((++files)) -eq 2 ]; then
+        echo "thixis: building (the first time takes some minutes)" >&2
+      fi
+    done >"$log"
+  } || {
     grep -E 'error:|FAILED|CMake Error|undefined reference|cannot find' "$log" | head -n 20 >&2
     fail "the build failed; the whole output is in $log."
   }
