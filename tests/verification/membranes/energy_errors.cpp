@@ -48,7 +48,7 @@ TEST(Sizes, smooth_contact_has_so_many_unknowns_and_is_not_solved_with_no_iterat
     const Solved run = solve(params);
     EXPECT_EQ(run.outcome.discretization->sizes().unknowns_all, unknowns[level]);
     EXPECT_TRUE(run.outcome.not_wanted);
-    EXPECT_EQ(run.outcome.newton_iterations, 0);
+    EXPECT_EQ(run.outcome.at.newton_iterations, 0);
   }
 }
 

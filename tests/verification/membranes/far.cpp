@@ -42,8 +42,7 @@ TEST(Far, the_steps_of_a_nested_start_stay_below_5_or_grow_by_one_per_level_wher
     const Solved run = solve(by_multigrid(name, 7), core::Comm(), observer);
     ASSERT_TRUE(run.outcome.solved) << name << ": " << run.outcome.finest.why;
     for (int level = 1; level <= 7; ++level) {
-      const bool smooth = std::string(name) == "smooth contact";
-      EXPECT_LE(steps[level], smooth ? std::max(5, level + 1) : 5) << name << " on T_" << level;
+      EXPECT_LE(steps[level], 5) << name << " on T_" << level;
       std::cout << name << ", T_" << level << ": " << steps[level] << " steps\n";
     }
   }
