@@ -19,13 +19,16 @@ install_missing() {
     need_programs "$@"
     return 0
   fi
-  local wanted missing sudo=() log=build/apt.log
-  wanted=$(sed 's/#.*//' "$@" | sort -u)
-  missing=$(comm -23 <(printf '%s\n' $wanted) \
-    <({ dpkg-query -W -f='${db:Status-Status} ${Package}\n' $wanted 2>/dev/null || true; } | sed -n 's/^installed //p' | sort -u) | tr '\n' ' ')
+  local wanted installed package missing="" sudo=() log=build/apt.log
+  wanted=$(sed 's/#.*//' "$@")
+  installed=" $(dpkg-query -W -f='${db:Status-Status}=${Package} ' $wanted 2>/dev/null || true)"
+  for package in $wanted; do
+    [[ "$installed" == *" installed=$package "* ]] || missing+="$package "
+  done
   [ -n "$missing" ] || return 0
   if [ "$(id -u)" != 0 ]; then
-    command -v sudo >/dev/null 2>&1 || fail "these Debian packages are missing, and neither root nor sudo is at hand to install them: $missing"
+    command -v sudo >/dev/null 2>&1 || fail "Debian packages are missing, and neither root nor sudo is at hand. Have" \
+      "somebody run: apt-get install --no-install-recommends $missing"
     sudo=(sudo)
   fi
   echo "thixis: installing $(echo $missing | wc -w) missing Debian packages and what they need" >&2
@@ -34,8 +37,8 @@ install_missing() {
     "${sudo[@]}" apt-get update -qq || echo "apt-get update failed; the lists at hand must do."
     "${sudo[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $missing
   } >"$log" 2>&1 </dev/null || {
-    tail -n 5 "$log" >&2
-    fail "apt could not install: $missing(the whole output is in $log)."
+    grep -E '^[EW]: ' "$log" | head -n 5 >&2 || tail -n 5 "$log" >&2
+    fail "apt could not install the Debian packages that are missing; the whole output is in $log."
   }
 }
 
@@ -44,7 +47,7 @@ configured_with() {
   local setting
   [ -f build/release/build.ninja ] || return 1
   for setting in "$@"; do
-    grep -qxF -e "$setting" <(sed 's/^/-D/; s/:[A-Z]*=/=/' build/release/CMakeCache.txt) || return 1
+    sed 's/^/-D/; s/:[A-Z]*=/=/' build/release/CMakeCache.txt | grep -xF -e "$setting" >/dev/null || return 1
   done
 }
 
