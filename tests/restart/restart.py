@@ -81,7 +81,7 @@ def from_ranks(ranks):
 
 
 def nested():
-    start = ["--set", "newton/start=nested"]
+    start = ["--set", "newton/start=nested", "--set", "newton/sweeps=0"]
     thixis("run", CONTACT, "--output", "whole", *start)
     checkpoint = interrupted("cut", 2, *start, ranks=2)
     level = newton_steps("cut")[-1][0]
