@@ -18,7 +18,7 @@ NoxGroup& NoxGroup::operator=(const NoxGroup& other) {
 }
 NOX::Abstract::Group& NoxGroup::operator=(const NOX::Abstract::Group& other) { return *this = dynamic_cast<const NoxGroup&>(other); }
 
-void NoxGroup::forget() { is_F_ = is_Jacobian_ = is_Newton_ = false; }
+void NoxGroup::forget() { is_F_ = is_jacobian_ = is_newton_ = false; }
 
 void NoxGroup::setX(const NOX::Abstract::Vector& y) {
   forget();
@@ -38,17 +38,17 @@ NOX::Abstract::Group::ReturnType NoxGroup::computeF() {
 
 NOX::Abstract::Group::ReturnType NoxGroup::computeJacobian() {
   if (!is_F_) return BadDependency;
-  if (!is_Jacobian_) system_.linearize(X_.values(), state_.active);
-  is_Jacobian_ = true;
+  if (!is_jacobian_) system_.linearize(X_.values(), state_.active);
+  is_jacobian_ = true;
   return Ok;
 }
 
 NOX::Abstract::Group::ReturnType NoxGroup::computeNewton(Teuchos::ParameterList&) {
-  if (is_Newton_) return Ok;
-  if (!is_F_ || !is_Jacobian_) return BadDependency;
-  if (Newton_.is_null()) Newton_ = Teuchos::rcp(new NoxVector(X_.values().getMap()));
-  system_.solve(X_.values(), R_.values(), Newton_->values());
-  is_Newton_ = true;
+  if (is_newton_) return Ok;
+  if (!is_F_ || !is_jacobian_) return BadDependency;
+  if (newton_.is_null()) newton_ = Teuchos::rcp(new NoxVector(X_.values().getMap()));
+  system_.solve(X_.values(), R_.values(), newton_->values());
+  is_newton_ = true;
   return Ok;
 }
 

@@ -26,17 +26,17 @@ class NoxGroup : public NOX::Abstract::Group {
   ReturnType computeNewton(Teuchos::ParameterList& parameters) override;
 
   bool isF() const override { return is_F_; }
-  bool isJacobian() const override { return is_Jacobian_; }
-  bool isNewton() const override { return is_Newton_; }
+  bool isJacobian() const override { return is_jacobian_; }
+  bool isNewton() const override { return is_newton_; }
   const NOX::Abstract::Vector& getX() const override { return X_; }
   const NOX::Abstract::Vector& getF() const override { return R_; }
   double getNormF() const override { return state_.residual; }
   const NOX::Abstract::Vector& getGradient() const override;  ///< not provided: throws
-  const NOX::Abstract::Vector& getNewton() const override { return *Newton_; }
+  const NOX::Abstract::Vector& getNewton() const override { return *newton_; }
   Teuchos::RCP<const NOX::Abstract::Vector> getXPtr() const override { return Teuchos::rcpFromRef(X_); }
   Teuchos::RCP<const NOX::Abstract::Vector> getFPtr() const override { return Teuchos::rcpFromRef(R_); }
   Teuchos::RCP<const NOX::Abstract::Vector> getGradientPtr() const override { return Teuchos::null; }
-  Teuchos::RCP<const NOX::Abstract::Vector> getNewtonPtr() const override { return Newton_; }
+  Teuchos::RCP<const NOX::Abstract::Vector> getNewtonPtr() const override { return newton_; }
   Teuchos::RCP<NOX::Abstract::Group> clone(NOX::CopyType type) const override;
 
  private:
@@ -44,9 +44,9 @@ class NoxGroup : public NOX::Abstract::Group {
 
   System& system_;
   NoxVector X_, R_;
-  Teuchos::RCP<NoxVector> Newton_;
+  Teuchos::RCP<NoxVector> newton_;
   State state_;
-  bool is_F_ = false, is_Jacobian_ = false, is_Newton_ = false;
+  bool is_F_ = false, is_jacobian_ = false, is_newton_ = false;
 };
 
 }  // namespace thixis::complementarity

@@ -28,7 +28,7 @@ std::string home_of(const Description& description, const Entry& entry, const st
   if (here && !path.empty()) return path;
   for (const auto& block : description.blocks()) {
     if (!block.inside || !block.single) continue;
-    const std::string home = home_of(*block.inside, entry, joined_path(path, block.name));
+    std::string home = home_of(*block.inside, entry, joined_path(path, block.name));
     if (!home.empty()) return home;
   }
   return "";

@@ -104,8 +104,8 @@ void require_finite(const std::string& name, const Points& points, double t, con
   for (std::size_t i = 0; i < points.count; ++i)
     if (!std::isfinite(values[i]))
       throw core::InputError(
-          fmt::format("{}: the value at x = {:.6g}, y = {:.6g}, t = {:.6g} is not a finite number; write a function that is defined there.", name,
-                      points.x[i], points.y[i], t));
+          fmt::format("{}: the value at x = {:.6g}, y = {:.6g}, t = {:.6g} is not a finite number; write a function that is defined there.",
+                      name, points.x[i], points.y[i], t));
 }
 
 }  // namespace thixis::scene
