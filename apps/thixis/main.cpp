@@ -5,6 +5,8 @@
 #include <Tpetra_Core.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <string>
+#include <vector>
 
 #include "registry.hpp"
 #include "thixis/core/assert.hpp"
@@ -162,13 +164,18 @@ core::ExitCode dispatch(int argc, char** argv, const core::Comm& comm) {
 }  // namespace thixis
 
 int main(int argc, char** argv) {
-  Tpetra::ScopeGuard scope(&argc, &argv);
+  // Kokkos takes words like --help for its own: it is shown those only that begin with its name, the program the others
+  std::vector<char*> kokkos = {argv[0]}, own = {argv[0]};
+  for (int i = 1; i < argc; ++i) (std::string(argv[i]).rfind("--kokkos-", 0) == 0 ? kokkos : own).push_back(argv[i]);
+  int kokkos_count = static_cast<int>(kokkos.size());
+  char** kokkos_words = kokkos.data();
+  Tpetra::ScopeGuard scope(&kokkos_count, &kokkos_words);
 #ifdef THIXIS_ASSERTIONS
   thixis::core::enable_floating_point_traps();
 #endif
   const thixis::core::Comm comm;
   try {
-    return static_cast<int>(thixis::dispatch(argc, argv, comm));
+    return static_cast<int>(thixis::dispatch(static_cast<int>(own.size()), own.data(), comm));
   } catch (const thixis::core::Error& error) {  // thrown on all ranks alike
     if (comm.root()) fmt::print(stderr, "{}\n", error.what());
     return static_cast<int>(error.code());

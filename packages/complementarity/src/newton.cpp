@@ -198,8 +198,8 @@ class Run {
       case Ending::failed:
         return fmt::format("Step {} was not possible: {}.", report_.steps + 1, why_);
       default:
-        return fmt::format("No convergence in {} steps (newton/max iterations): the residual is {:.2e}, not below {:.2e}.", report_.steps,
-                           last_.residual, bound);
+        return fmt::format("No convergence in {} step{} (newton/max iterations): the residual is {:.2e}, not below {:.2e}.", report_.steps,
+                           report_.steps == 1 ? "" : "s", last_.residual, bound);
     }
   }
 

@@ -40,7 +40,7 @@ bool CheckpointFile::write(const Position& at, const models::Discretization& dis
   checkpoint.level = at.level;
   checkpoint.attributes = {{"cells", static_cast<double>(mesh.global_cells)},   {"newton_on_level", at.newton_on_level},
                            {"newton_iterations", at.newton_iterations},         {"linear_iterations", at.linear_iterations},
-                           {"history_rows", static_cast<double>(history_rows)}, {"seconds", seconds}};
+                           {"history_rows", static_cast<double>(history_rows)}, {"seconds", mesh.comm.max(seconds)}};
   checkpoint.blocks = discretization.save(X);
   output::write_checkpoint(path_, checkpoint, mesh.comm);
   return true;

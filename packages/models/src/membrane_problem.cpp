@@ -74,6 +74,19 @@ void MembraneProblem::relax(Vector& X, int sweeps) const {
   join(x, X);
 }
 
+void MembraneProblem::settle(MultiVector& x) const {
+  Vector scale(membranes_.map());
+  scaling(scale);
+  const auto s = scale.getLocalViewDevice(Tpetra::Access::ReadOnly);
+  const auto fields = x.getLocalViewDevice(Tpetra::Access::ReadWrite);
+  const double theta1 = membranes_.theta[0], theta2 = membranes_.theta[1];
+  Kokkos::parallel_for(
+      "thixis::models::settle", Kokkos::RangePolicy<Vector::execution_space>(0, fields.extent_int(0)), KOKKOS_LAMBDA(int l) {
+        if (fields(l, 0) - fields(l, 1) > s(l, 0) * fields(l, 2)) fields(l, 2) = 0;
+        else fields(l, 0) = fields(l, 1) = theta1 * fields(l, 0) + theta2 * fields(l, 1);
+      });
+}
+
 void MembraneProblem::make_complementary(MultiVector& x) const {
   const auto fields = x.getLocalViewDevice(Tpetra::Access::ReadWrite);
   const double theta1 = membranes_.theta[0], theta2 = membranes_.theta[1];

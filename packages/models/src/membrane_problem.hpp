@@ -23,6 +23,9 @@ class MembraneProblem final : public complementarity::Problem {
   double reference_norm() const override;
   void relax(algebra::Vector& X, int sweeps) const override;
 
+  /// Takes the round-off of the linear solver out of a solution: lambda_l = 0 at free points, no gap at contact points (K_l <= s_l G_l), so
+  /// that interpolation meets exact zeros. x: columns u1, u2, lambda.
+  void settle(algebra::MultiVector& x) const;
   /// Brings the membranes together (at the mean theta1 u1 + theta2 u2) where lambda_l > 0. Interpolation leaves points along the edge of
   /// the contact zone with a gap and a multiplier; where the data are flat there, beginning with them free would make the zone overshoot,
   /// and Newton-min takes that back by one layer of points a step. x: columns u1, u2, lambda.

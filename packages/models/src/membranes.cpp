@@ -191,6 +191,7 @@ class MembraneDiscretization final : public Discretization {
     const auto& coarse = dynamic_cast<const MembraneDiscretization&>(coarse_level);
     MultiVector coarse_x(coarse.space_->map(), 3), x(space_->map(), 3);
     split(coarse_X, coarse_x);
+    coarse.problem_->settle(coarse_x);
     for (int field = 0; field < 3; ++field) {
       const auto u = coarse.space_->complete(*coarse_x.getVector(field), field < 2 ? coarse.lift_[field] : coarse.nothing());
       space_->prolongate(*coarse.space_, u, *x.getVectorNonConst(field));

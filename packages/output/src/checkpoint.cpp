@@ -42,6 +42,21 @@ struct Rows {
   std::vector<double> values;
 };
 
+/// Collective: the rows that this rank reads, proven to be what was written.
+Rows read_rows(const Hdf5Reader& file, const std::string& block, const std::string& complaint, const core::Comm& comm) {
+  const std::string place = place_of(block);
+  Rows rows;
+  const GlobalIndex expected = comm.together([&] {
+    rows.slab = even_slab(file.length(place + "/ids"), comm);
+    if (file.length(place + "/values") != rows.slab.total) throw core::FileError(complaint);
+    rows.ids = file.integers(place + "/ids", rows.slab);
+    rows.values = file.numbers(place + "/values", rows.slab);
+    return file.integer(place, "checksum");
+  });
+  if (static_cast<GlobalIndex>(checksum(rows.ids, rows.values, comm)) != expected) throw core::FileError(complaint);
+  return rows;
+}
+
 /// The rank that sorts an id: the range of ids is shared evenly.
 std::vector<int> sorting_ranks(const CheckpointBlock& block, const core::Comm& comm) {
   comm.together([&] {
@@ -123,12 +138,36 @@ void sync_folder(const std::string& path) {
 
 }  // namespace
 
+namespace {
+
+/// Throws FileError unless the file gives back what was written: only then may it take the place of an older checkpoint. Collective.
+void prove(const std::string& path, const Checkpoint& checkpoint, const core::Comm& comm) {
+  const std::string complaint = fmt::format(
+      "The checkpoint can not be written: '{}' does not read back as it was written; an older checkpoint stays as it is.", path);
+  const auto file = comm.together([&] { return std::make_shared<Hdf5Reader>(path, complaint); });
+  comm.together([&] {
+    bool same = file->text("/format") == format_text && file->integer("/", "version") == format_version &&
+                file->integer("/", "level") == checkpoint.level && file->text("/deck") == checkpoint.deck &&
+                file->text("/folder") == checkpoint.folder && file->entries("/blocks").size() == checkpoint.blocks.size() &&
+                file->attributes("/attributes").size() == checkpoint.attributes.size();
+    for (const auto& [name, value] : checkpoint.attributes) same = same && bits(file->number("/attributes", name)) == bits(value);
+    if (!same) throw core::FileError(complaint);
+  });
+  for (const auto& block : checkpoint.blocks) {
+    const Rows rows = read_rows(*file, block.name, complaint, comm);
+    if (checksum(rows.ids, rows.values, comm) != checksum(block.ids, block.values, comm)) throw core::FileError(complaint);
+  }
+}
+
+}  // namespace
+
 void write_checkpoint(const std::string& path, const Checkpoint& checkpoint, const core::Comm& comm) {
   const std::string temporary = path + ".part";
   try {
     write_content(temporary, checkpoint, comm);
-  } catch (const core::Error&) {
-    if (comm.root()) std::remove(temporary.c_str());
+    prove(temporary, checkpoint, comm);
+  } catch (const core::Error&) {  // thrown on all ranks
+    comm.on_root([&] { std::remove(temporary.c_str()); });
     throw;
   }
   comm.on_root([&] {
@@ -199,21 +238,6 @@ GlobalIndex StoredCheckpoint::size(const std::string& block) const {
 }
 
 namespace {
-
-/// Collective: the rows that this rank reads, proven to be what was written.
-Rows read_rows(const Hdf5Reader& file, const std::string& block, const std::string& complaint, const core::Comm& comm) {
-  const std::string place = place_of(block);
-  Rows rows;
-  const GlobalIndex expected = comm.together([&] {
-    rows.slab = even_slab(file.length(place + "/ids"), comm);
-    if (file.length(place + "/values") != rows.slab.total) throw core::FileError(complaint);
-    rows.ids = file.integers(place + "/ids", rows.slab);
-    rows.values = file.numbers(place + "/values", rows.slab);
-    return file.integer(place, "checksum");
-  });
-  if (static_cast<GlobalIndex>(checksum(rows.ids, rows.values, comm)) != expected) throw core::FileError(complaint);
-  return rows;
-}
 
 /// The rank that has read each of the ids, if any has. Collective.
 std::vector<int> reading_ranks(const std::vector<GlobalIndex>& ids, const Rows& rows, const core::Comm& comm) {

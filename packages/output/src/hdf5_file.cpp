@@ -54,7 +54,9 @@ Hdf5File::Hdf5File(const std::string& path, Mode mode, long long room, const cor
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_fapl_mpio(access, comm.mpi(), MPI_INFO_NULL);
   H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
-  H5Pset_coll_metadata_write(access, true);
+  // Not collectively: then ranks write pieces of metadata with gaps between them at once, and Open MPI 4.1 (ompio, fbtl/posix write data
+  // sieving) fills gaps with what it has read before, over what another rank has written meanwhile.
+  H5Pset_coll_metadata_write(access, false);
   H5Pset_all_coll_metadata_ops(access, true);
   file_ = mode == Mode::create ? H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access) : H5Fopen(path.c_str(), H5F_ACC_RDWR, access);
   if (!comm.all(file_ >= 0)) {

@@ -49,7 +49,7 @@ void expect_agreement(drive::RunParams params) {
       const Solved together = solve(by(params, way));
       EXPECT_TRUE(together.outcome.solved) << way.name << ": " << together.outcome.finest.why;
       EXPECT_NEAR(together.outcome.energy_norm, norm, 1e-8 * norm) << way.name;
-      EXPECT_EQ(together.outcome.newton_iterations, alone.outcome.newton_iterations) << way.name;
+      EXPECT_EQ(together.outcome.at.newton_iterations, alone.outcome.at.newton_iterations) << way.name;
       EXPECT_EQ(together.outcome.finest.active, alone.outcome.finest.active) << way.name;
       EXPECT_LE(together.outcome.kkt->worst(), 1e-8) << way.name;
     }

@@ -13,7 +13,7 @@ int steps(int level, complementarity::Ties ties) {
   params.newton.ties = ties;
   const Solved run = solve(params);
   EXPECT_TRUE(run.outcome.solved) << run.outcome.finest.why;
-  return run.outcome.newton_iterations;
+  return run.outcome.at.newton_iterations;
 }
 
 }  // namespace
@@ -32,7 +32,7 @@ TEST(NewtonSteps, a_run_that_may_take_one_step_does_not_converge) {
   params.newton.max_iterations = 1;
   const Solved run = solve(params);
   EXPECT_FALSE(run.outcome.solved);
-  EXPECT_EQ(run.outcome.newton_iterations, 1);
+  EXPECT_EQ(run.outcome.at.newton_iterations, 1);
   EXPECT_GT(run.outcome.kkt->worst(), 1e-3);
 }
 

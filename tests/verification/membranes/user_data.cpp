@@ -35,7 +35,7 @@ TEST(UserData, by_expressions_reproduce_the_catalogued_case) {
     ASSERT_TRUE(given.outcome.solved) << given.outcome.finest.why;
     EXPECT_NEAR(*given.outcome.energy_error, *known.outcome.energy_error, 1e-8 * *known.outcome.energy_error);
     EXPECT_NEAR(given.outcome.energy_norm, known.outcome.energy_norm, 1e-8 * known.outcome.energy_norm);
-    EXPECT_EQ(given.outcome.newton_iterations, known.outcome.newton_iterations);
+    EXPECT_EQ(given.outcome.at.newton_iterations, known.outcome.at.newton_iterations);
   }
 }
 

@@ -36,9 +36,9 @@ struct Checkpoint {
 ///     /blocks/<name>/values    [n] doubles, those of the ids
 ///     /blocks/<name>           attribute `checksum`: sum of hash(id, bits of the value) modulo 2^64
 ///
-/// It is written beside its place (`<path>.part`), brought to the disk and renamed: at any moment, also when the program is killed or the
-/// disk is full, the whole old or the whole new checkpoint is there. Collective; throws FileError on all ranks. Blocks that contradict
-/// themselves are an Error with code `internal`.
+/// It is written beside its place (`<path>.part`), brought to the disk, read back and compared, and renamed: at any moment, also when the
+/// program is killed or the disk is full, the whole old or the whole new checkpoint is there. Collective; throws FileError on all ranks.
+/// Blocks that contradict themselves are an Error with code `internal`.
 void write_checkpoint(const std::string& path, const Checkpoint& checkpoint, const core::Comm& comm);
 
 /// A checkpoint on the disk, to be read on any number of ranks.
