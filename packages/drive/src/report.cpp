@@ -171,18 +171,19 @@ output::Summary summarize(const RunParams& params, const models::Model& model, c
 }  // namespace
 
 void check_served(const RunParams& params) {
+  std::vector<std::string> mistakes;
   const std::string no_estimate = " needs an error estimate, which this version does not compute; ";
   if (params.stopping.rule == complementarity::StoppingRule::adaptive)
-    throw core::InputError("stopping/rule: adaptive" + no_estimate + "write exact or inexact.");
+    mistakes.push_back("stopping/rule: adaptive" + no_estimate + "write exact or inexact.");
   if (params.stopping.estimate.value_or(false))
-    throw core::InputError("stopping/estimate: this" + no_estimate + "write false or leave it out.");
-  if (params.stopping.target) throw core::InputError("stopping/target: this" + no_estimate + "leave it out.");
-  if (params.expect.effectivity_between) throw core::InputError("expect/effectivity between: this" + no_estimate + "leave it out.");
+    mistakes.push_back("stopping/estimate: this" + no_estimate + "write false or leave it out.");
+  if (params.stopping.target) mistakes.push_back("stopping/target: this" + no_estimate + "leave it out.");
+  if (params.expect.effectivity_between) mistakes.push_back("expect/effectivity between: this" + no_estimate + "leave it out.");
   if (params.linear.solver == algebra::SolverKind::cg && params.linear.form == algebra::SystemForm::full)
-    throw core::InputError(
-        "linear/solver: the full system is not symmetric, so cg can not solve it; write form = reduced, or solver = gmres.");
+    mistakes.push_back("linear/solver: the full system is not symmetric, so cg can not solve it; write form = reduced, or solver = gmres.");
   if (params.linear.preconditioner == algebra::PreconditionerKind::muelu && params.linear.form == algebra::SystemForm::full)
-    throw core::InputError("linear/preconditioner: muelu works on the reduced system only; write form = reduced, or preconditioner = ilu.");
+    mistakes.push_back("linear/preconditioner: muelu works on the reduced system only; write form = reduced, or preconditioner = ilu.");
+  if (!mistakes.empty()) throw core::InputError(fmt::format("{}", fmt::join(mistakes, "\n")));
 }
 
 ExitCode run(const RunParams& params, const models::Model& model, const core::Deck& deck, const core::Comm& comm,
