@@ -36,8 +36,20 @@ core::ExitCode with_deck(core::Deck deck, const Arguments& arguments, F f) {
   if (!arguments.output.empty()) params.output.directory = arguments.output;
   if (params.output.directory.empty()) params.output.directory = "results/" + deck.stem();
   try {
-    drive::check_served(params);
-    return f(deck, params, *make_model(params));
+    // both parts of the judgement show their mistakes
+    std::unique_ptr<models::Model> model;
+    std::string mistakes;
+    const auto collect = [&](auto part) {
+      try {
+        part();
+      } catch (const core::InputError& mistake) {
+        mistakes += (mistakes.empty() ? "" : "\n") + std::string(mistake.what());
+      }
+    };
+    collect([&] { drive::check_served(params); });
+    collect([&] { model = make_model(params); });
+    if (!mistakes.empty()) throw core::InputError(mistakes);
+    return f(deck, params, *model);
   } catch (const core::Error& error) {
     throw deck.located(error);
   }

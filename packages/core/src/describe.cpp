@@ -120,7 +120,7 @@ class Skeleton {
 
   void block(const Description& description, const void* object, const std::string& path) {
     for (const auto& parameter : description.parameters())
-      if (is_chosen(path) || parameter.required) entry(parameter, parameter.name, object);
+      if (is_chosen(path) || parameter.required || parameter.exemplary) entry(parameter, parameter.name, object);
     for (const auto& inside : description.blocks()) {
       const std::string inside_path = joined_path(path, inside.name);
       if (is_chosen(inside_path) || is_around(inside_path) || has_required(inside)) sublist(inside, object, inside_path);
@@ -133,7 +133,7 @@ class Skeleton {
     const std::string note =
         parameter.sentence + (values.empty() ? "" : " Values: " + values + ".") + (parameter.required ? " Required." : "");
     const bool before = xml_.hidden();
-    if (!value && !parameter.required) xml_.hide(true);
+    if (!value && !parameter.required && !parameter.exemplary) xml_.hide(true);
     xml_.parameter(name, value ? *value : example_value(parameter), note);
     xml_.hide(before);
   }

@@ -37,10 +37,11 @@ Verdict judge(const RunParams& params, const Outcome& outcome, long long cells) 
   }
   if (!outcome.solved) return {ExitCode::not_converged, "not converged: " + outcome.finest.why};
   if (params.stopping.rule != complementarity::StoppingRule::adaptive && !outcome.kkt->holds(outcome.kkt_tolerance))
-    return {ExitCode::not_converged, "not converged: Newton stopped, but " + outcome.kkt->sentence(outcome.kkt_tolerance)};
+    return {ExitCode::not_converged, "not converged: Newton stopped. " + outcome.kkt->sentence(outcome.kkt_tolerance)};
   if (!missing.empty()) return {ExitCode::target_missed, "solved, but not as expected: " + clauses + "."};
   std::string sentence =
-      fmt::format("solved in {} Newton steps and {} Krylov iterations", outcome.at.newton_iterations, outcome.at.linear_iterations);
+      fmt::format("solved in {} Newton step{} and {} Krylov iteration{}", outcome.at.newton_iterations,
+                  outcome.at.newton_iterations == 1 ? "" : "s", outcome.at.linear_iterations, outcome.at.linear_iterations == 1 ? "" : "s");
   if (outcome.energy_error) sentence += fmt::format("; energy error {:.4e}", *outcome.energy_error);
   return {ExitCode::done, sentence + fmt::format("; contact conditions hold to {:.1e}.", outcome.kkt->worst())};
 }
@@ -116,7 +117,9 @@ void introduce(const core::Deck& deck, const models::Model& model, const core::C
                const std::vector<std::pair<std::string, std::string>>& versions, const output::StoredCheckpoint* stored) {
   log::info("{}: model {}{}, on {} {}", deck.file(), model.name(), model.case_name().empty() ? "" : ", case " + model.case_name(),
             comm.size(), comm.size() == 1 ? "rank" : "ranks");
-  for (const auto& [name, version] : versions) log::detail("{:<16}{}", name, version);
+  std::string text;
+  for (const auto& [name, version] : versions) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name, version);
+  log::info("{}", text);
   if (!stored) return;
   const Position from = position_of(*stored);
   log::info("goes on from level {}, Newton step {} ({} steps on all levels)", from.level, from.newton_on_level, from.newton_iterations);
@@ -126,9 +129,8 @@ void introduce(const core::Deck& deck, const models::Model& model, const core::C
 void invite(const std::string& checkpoint, const RunParams& params, const Outcome& outcome) {
   const int most = params.newton.max_iterations;
   const bool too_few = !outcome.solved && outcome.finest.steps >= most;
-  log::info(
-      "the last iterate is kept; to go on from it: thixis restart {}{}", checkpoint,
-      too_few ? fmt::format(" --set \"newton/max iterations={}\"", std::max(50, 2 * most)) : " --set PATH=VALUE (what shall be different)");
+  log::info("the last iterate is kept; to go on from it: thixis restart {}{}", checkpoint,
+            too_few ? fmt::format(" --set \"newton/max iterations={}\"", std::max(50, 2 * most)) : "");
 }
 
 output::Summary summarize(const RunParams& params, const models::Model& model, const Outcome& outcome, const Verdict& verdict,
@@ -169,18 +171,19 @@ output::Summary summarize(const RunParams& params, const models::Model& model, c
 }  // namespace
 
 void check_served(const RunParams& params) {
+  std::vector<std::string> mistakes;
   const std::string no_estimate = " needs an error estimate, which this version does not compute; ";
   if (params.stopping.rule == complementarity::StoppingRule::adaptive)
-    throw core::InputError("stopping/rule: adaptive" + no_estimate + "write exact or inexact.");
+    mistakes.push_back("stopping/rule: adaptive" + no_estimate + "write exact or inexact.");
   if (params.stopping.estimate.value_or(false))
-    throw core::InputError("stopping/estimate: this" + no_estimate + "write false or leave it out.");
-  if (params.stopping.target) throw core::InputError("stopping/target: this" + no_estimate + "leave it out.");
-  if (params.expect.effectivity_between) throw core::InputError("expect/effectivity between: this" + no_estimate + "leave it out.");
+    mistakes.push_back("stopping/estimate: this" + no_estimate + "write false or leave it out.");
+  if (params.stopping.target) mistakes.push_back("stopping/target: this" + no_estimate + "leave it out.");
+  if (params.expect.effectivity_between) mistakes.push_back("expect/effectivity between: this" + no_estimate + "leave it out.");
   if (params.linear.solver == algebra::SolverKind::cg && params.linear.form == algebra::SystemForm::full)
-    throw core::InputError(
-        "linear/solver: the full system is not symmetric, so cg can not solve it; write form = reduced, or solver = gmres.");
+    mistakes.push_back("linear/solver: the full system is not symmetric, so cg can not solve it; write form = reduced, or solver = gmres.");
   if (params.linear.preconditioner == algebra::PreconditionerKind::muelu && params.linear.form == algebra::SystemForm::full)
-    throw core::InputError("linear/preconditioner: muelu works on the reduced system only; write form = reduced, or preconditioner = ilu.");
+    mistakes.push_back("linear/preconditioner: muelu works on the reduced system only; write form = reduced, or preconditioner = ilu.");
+  if (!mistakes.empty()) throw core::InputError(fmt::format("{}", fmt::join(mistakes, "\n")));
 }
 
 ExitCode run(const RunParams& params, const models::Model& model, const core::Deck& deck, const core::Comm& comm,
@@ -194,7 +197,9 @@ ExitCode run(const RunParams& params, const models::Model& model, const core::De
   }
   const mesh::Mesh& finest = hierarchy.finest();
   // what is wrong in the scene on this mesh shows here, before anything is written
-  model.check(finest, params.output.field_names());
+  const bool nested = params.newton.start == complementarity::Start::nested;
+  for (const auto& mesh : hierarchy.levels)
+    if (nested || &mesh == &finest) model.check(mesh, params.output.field_names());
   if (stored) check_restart(*stored, params, hierarchy);
 
   const output::RunDirectory directory(params.output.directory);

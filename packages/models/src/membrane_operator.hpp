@@ -16,7 +16,8 @@ struct MembraneOperator {
   std::array<double, 2> factor = {1, 1};
   std::array<Teuchos::RCP<algebra::Vector>, 2> load;  ///< F_alpha, the Dirichlet data moved to the right
   Teuchos::RCP<const algebra::Vector> pairing;        ///< D
-  std::array<double, 2> theta = {0.5, 0.5};           ///< theta_alpha = mu_alpha / (mu1 + mu2), of the mean tensions
+  std::array<double, 2> tension = {1, 1};             ///< mean diagonal of S_alpha: a few mu_alpha
+  std::array<double, 2> theta = {0.5, 0.5};           ///< theta_alpha = tension_alpha / (tension_1 + tension_2)
 
   bool shared() const { return matrix[0] == matrix[1]; }
   algebra::MapPtr map() const { return pairing->getMap(); }

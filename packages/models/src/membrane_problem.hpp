@@ -4,8 +4,7 @@
 
 namespace thixis::models {
 
-/// The two-membrane problem as the nonlinear solver sees it: X = (u1, u2, lambda) interlaced by node, lambda in units of X3,
-/// K_l = u1_l - u2_l + (difference of the lifts, zero at unknowns), G_l = lambda_l.
+/// The two-membrane problem as the nonlinear solver sees it: X = (u1, u2, lambda) interlaced by node, K_l = u1_l - u2_l, G_l = lambda_l.
 class MembraneProblem final : public complementarity::Problem {
  public:
   MembraneProblem(MembraneOperator membranes, const algebra::LinearParams& params,
@@ -31,6 +30,7 @@ class MembraneProblem final : public complementarity::Problem {
   /// and Newton-min takes that back by one layer of points a step. x: columns u1, u2, lambda.
   void make_complementary(algebra::MultiVector& x) const;
 
+  double mean_tension(int alpha) const { return membranes_.tension[alpha]; }
   GlobalIndex rows() const;      ///< of the Krylov system
   GlobalIndex nonzeros() const;  ///< 0 before the first linearization
 

@@ -4,148 +4,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "membrane_checks.hpp"
 #include "membrane_problem.hpp"
 #include "thixis/core/error.hpp"
 #include "thixis/core/timer.hpp"
 #include "thixis/mesh/host.hpp"
-#include "thixis/method/quadrature.hpp"
 
 namespace thixis::models {
 namespace {
 
 using algebra::MultiVector;
 using algebra::Vector;
-using method::BoundaryValues;
 using method::Coefficients;
-
-/// The scene's conditions in the order of the mesh's tags.
-struct Boundary {
-  std::vector<bool> dirichlet;
-  BoundaryValues values[2];
-};
-
-Boundary boundary_of(const scene::MembraneScene& scene, const mesh::Mesh& mesh) {
-  for (const auto& [tag, condition] : scene.boundary)
-    if (std::find(mesh.tags.begin(), mesh.tags.end(), tag) == mesh.tags.end()) {
-      std::string names;
-      for (const auto& name : mesh.tags) names += (names.empty() ? "" : ", ") + name;
-      throw core::InputError("scene/boundary/" + tag + ": the mesh has no such part of the boundary; write one of: " + names + ".");
-    }
-  Boundary boundary;
-  for (const auto& tag : mesh.tags) {
-    const auto given = scene.boundary.find(tag);
-    const auto& condition = given == scene.boundary.end() ? scene.default_boundary : given->second;
-    const bool dirichlet = condition.kind == scene::BoundaryKind::dirichlet;
-    if (dirichlet && !(condition.value[0] && condition.value[1]))
-      throw core::InputError(
-          "scene/boundary/" + tag +
-          ": nothing is said about this part of the boundary; give g1 and g2 there, or g1 and g2 in scene/data for all of it.");
-    boundary.dirichlet.push_back(dirichlet);
-    for (int alpha = 0; alpha < 2; ++alpha) {
-      boundary.values[alpha].dirichlet.push_back(dirichlet ? condition.value[alpha] : nullptr);
-      boundary.values[alpha].neumann.push_back(dirichlet ? nullptr : condition.value[alpha]);
-    }
-  }
-  if (std::find(boundary.dirichlet.begin(), boundary.dirichlet.end(), true) == boundary.dirichlet.end())
-    throw core::InputError(
-        "scene/boundary: no part of the boundary has kind dirichlet, so the membranes are free to float away; fix at least one.");
-  return boundary;
-}
-
-struct PointList {
-  std::vector<double> x, y;
-  void add(double px, double py) {
-    x.push_back(px);
-    y.push_back(py);
-  }
-  std::vector<double> evaluate(const scene::Field& field) const {
-    std::vector<double> values(x.size());
-    field.evaluate({x.size(), x.data(), y.data()}, 0, values.data());
-    return values;
-  }
-};
-
-/// Ends of the faces of a part of the boundary on this rank (ends: true), or their midpoints.
-PointList points_on(const mesh::Mesh& mesh, const mesh::HostMesh& host, std::size_t tag, bool ends) {
-  PointList points;
-  for (LocalIndex F = 0; F < mesh.faces; ++F) {
-    if (host.face_tag(F) != static_cast<LocalIndex>(tag)) continue;
-    const LocalIndex a = host.face_vertices(F, 0), b = host.face_vertices(F, 1);
-    const double ax = host.coordinates(a, 0), ay = host.coordinates(a, 1), bx = host.coordinates(b, 0), by = host.coordinates(b, 1);
-    if (ends) points.add(ax, ay), points.add(bx, by);
-    else points.add((ax + bx) / 2, (ay + by) / 2);
-  }
-  return points;
-}
-
-/// Throws where g1 < g2 at an end of a held face (membranes that cross at their boundary have no solution), and where boundary data are not
-/// finite. Collective.
-void check_boundary(const scene::MembraneScene& scene, const Boundary& boundary, const mesh::Mesh& mesh) {
-  mesh.comm.together([&] {
-    const auto host = mesh::on_host(mesh);
-    for (std::size_t tag = 0; tag < boundary.dirichlet.size(); ++tag) {
-      const PointList at = points_on(mesh, host, tag, boundary.dirichlet[tag]);
-      if (!boundary.dirichlet[tag]) {
-        for (const auto& values : boundary.values) at.evaluate(*values.neumann[tag]);
-        continue;
-      }
-      const auto upper = at.evaluate(*boundary.values[0].dirichlet[tag]), lower = at.evaluate(*boundary.values[1].dirichlet[tag]);
-      for (std::size_t i = 0; i < upper.size(); ++i)
-        if (upper[i] < lower[i] - 1e-12 * (std::abs(upper[i]) + std::abs(lower[i])))
-          throw core::InputError(
-              fmt::format("{}: on the boundary '{}' the upper membrane lies below the lower one: g1 = {:.6g} < g2 = {:.6g} "
-                          "at ({:.6g}, {:.6g}); give boundary data with g1 >= g2.",
-                          scene.boundary.count(mesh.tags[tag]) > 0 ? "scene/boundary/" + mesh.tags[tag] : "scene/data/g1", mesh.tags[tag],
-                          upper[i], lower[i], at.x[i], at.y[i]));
-    }
-  });
-}
-
-/// Throws where a tension is not positive or another function of the user is not finite: at the points where the run will ask for it, but
-/// before anything is written. Collective.
-void check_data(const scene::MembraneScene& scene, const method::MethodParams& method, const mesh::Mesh& mesh) {
-  const auto quadrature = method::make_quadrature(mesh, method::owned_cells(mesh), method.order(), scene.interface_level_set);
-  double lowest[2] = {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-  mesh.comm.together([&] {
-    const mesh::View<double*> values("thixis::models::data", quadrature.largest_block);
-    const auto on_host = Kokkos::create_mirror_view(values);
-    method::for_each_block(quadrature, [&](const method::QuadratureBlock& block) {
-      for (int alpha = 0; alpha < 2; ++alpha) {
-        method::evaluate(*scene.force[alpha], 0, block, values);
-        if (scene.exact) method::evaluate(*scene.exact->u[alpha], 0, block, values);
-        method::evaluate(*scene.tension[alpha], 0, block, values);
-        Kokkos::deep_copy(on_host, values);
-        for (int q = 0; q < block.points; ++q) lowest[alpha] = std::min(lowest[alpha], on_host(q));
-      }
-    });
-  });
-  for (int alpha = 0; alpha < 2; ++alpha)
-    if (const double tension = mesh.comm.min(lowest[alpha]); !(tension > 0))
-      throw core::InputError(
-          fmt::format("scene/data/mu{}: the tension falls to {:.6g}; give one that is positive everywhere.", alpha + 1, tension));
-}
-
-/// Throws where the functions that a cold start begins with are not finite. Collective.
-void check_initial(const std::array<scene::FieldPtr, 3>& initial, const mesh::Mesh& mesh) {
-  mesh.comm.together([&] {
-    PointList vertices;
-    const auto coordinates = mesh::on_host(mesh).coordinates;
-    for (LocalIndex v = 0; v < mesh.vertices; ++v) vertices.add(coordinates(v, 0), coordinates(v, 1));
-    for (const auto& field : initial)
-      if (field) vertices.evaluate(*field);
-  });
-}
-
-const char* const known_fields[] = {"u1", "u2", "lambda", "gap", "active"};
-
-void check_field_names(const std::vector<std::string>& names) {
-  for (const auto& name : names)
-    if (std::find(std::begin(known_fields), std::end(known_fields), name) == std::end(known_fields))
-      throw core::InputError(
-          fmt::format("output/fields: there is no field '{}'; write all, none, or some of {}.", name, fmt::join(known_fields, ", ")));
-}
 
 const char* const unknown_fields[] = {"u1", "u2", "lambda"};
 
@@ -157,6 +28,27 @@ void check_size(const output::StoredCheckpoint& stored, const std::string& block
                   "mesh, method and "
                   "the kinds of the boundary as they were.",
                   stored.path(), saved < 0 ? fmt::format("no '{}'", block) : fmt::format("{} values of '{}'", saved, block), unknowns));
+}
+
+/// Diagonal of the box around the mesh. Collective.
+double diameter(const mesh::Mesh& mesh) {
+  const auto x = mesh::on_host(mesh).coordinates;
+  double box[4] = {-1e300, -1e300, -1e300, -1e300};  // -lower, upper
+  for (LocalIndex v = 0; v < mesh.vertices; ++v)
+    for (int d = 0; d < 2; ++d) {
+      box[d] = std::max(box[d], -x(v, d));
+      box[2 + d] = std::max(box[2 + d], x(v, d));
+    }
+  for (double& side : box) side = mesh.comm.max(side);
+  return std::hypot(box[2] + box[0], box[3] + box[1]);
+}
+
+/// Largest absolute value. Collective.
+double largest(const Coefficients& u, const core::Comm& comm) {
+  const auto host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), u);
+  double value = 0;
+  for (std::size_t i = 0; i < host.extent(0); ++i) value = std::max(value, std::abs(host(i)));
+  return comm.max(value);
 }
 
 class MembraneDiscretization final : public Discretization {
@@ -251,7 +143,9 @@ class MembraneDiscretization final : public Discretization {
     data.claimed = Teuchos::rcp(new Vector(*x.getVector(2), Teuchos::Copy));
     Vector inverse(space_->map());
     inverse.reciprocal(space_->pairing());
-    data.gap_scale = data.multiplier_scale = 0;
+    const double width = diameter(space_->mesh());
+    double size = 0;
+    data.multiplier_scale = 0;
     for (int alpha = 0; alpha < 2; ++alpha) {
       // lambda_1 = (a(u1, psi) - F1) / D,  lambda_2 = (F2 - a(u2, psi)) / D
       Vector defect(space_->map());
@@ -261,13 +155,20 @@ class MembraneDiscretization final : public Discretization {
       auto multiplier = Teuchos::rcp(new Vector(space_->map()));
       multiplier->elementWiseMultiply(1, inverse, defect, 0);
       data.equilibrium.push_back(multiplier);
-      data.gap_scale = std::max(data.gap_scale, x.getVector(alpha)->normInf());
+      // what is large: the force per area that is there, and the one that bends the membrane over the width of the domain
+      const double height = std::max(x.getVector(alpha)->normInf(), largest(lift_[alpha], space_->mesh().comm));
       defect.elementWiseMultiply(1, inverse, *body_[alpha], 0);
-      data.multiplier_scale = std::max({data.multiplier_scale, multiplier->normInf(), defect.normInf()});
+      data.multiplier_scale = std::max(
+          {data.multiplier_scale, multiplier->normInf(), defect.normInf(), problem_->mean_tension(alpha) * height / (width * width)});
+      size = std::max(size, height);
     }
     data.smallest_pairing = 1 / inverse.normInf();
-    if (!(data.gap_scale > 0)) data.gap_scale = 1;
     if (!(data.multiplier_scale > 0)) data.multiplier_scale = 1;
+    // ... and a gap: the heights that are there, and what such a force opens at one point
+    Vector s(space_->map());
+    problem_->scaling(s);
+    data.gap_scale = std::max(size, s.normInf() * data.multiplier_scale);
+    if (!(data.gap_scale > 0)) data.gap_scale = 1;
     return data;
   }
 
@@ -311,7 +212,6 @@ class MembraneDiscretization final : public Discretization {
     } else {
       for (int alpha = 0; alpha < 2; ++alpha) membranes.matrix[alpha] = space_->stiffness(*scene_.tension[alpha]);
     }
-    double mean[2];
     for (int alpha = 0; alpha < 2; ++alpha) {
       // what the Dirichlet data exert on the unknowns moves to the right
       Vector held(space_->map());
@@ -320,10 +220,11 @@ class MembraneDiscretization final : public Discretization {
       membranes.load[alpha]->update(-1, held, 1);
       Vector diagonal(space_->map());
       membranes.matrix[alpha]->getLocalDiagCopy(diagonal);
-      mean[alpha] = membranes.factor[alpha] * diagonal.meanValue();
+      membranes.tension[alpha] = membranes.factor[alpha] * diagonal.meanValue();
     }
     if (space_->map()->getGlobalNumElements() > 0)
-      for (int alpha = 0; alpha < 2; ++alpha) membranes.theta[alpha] = mean[alpha] / (mean[0] + mean[1]);
+      for (int alpha = 0; alpha < 2; ++alpha)
+        membranes.theta[alpha] = membranes.tension[alpha] / (membranes.tension[0] + membranes.tension[1]);
     return membranes;
   }
 
@@ -362,9 +263,7 @@ class Membranes final : public Model {
   std::string case_name() const override { return scene_.name == "data" ? "" : scene_.name; }
   void check(const mesh::Mesh& mesh, const std::vector<std::string>& field_names) const override {
     check_field_names(field_names);
-    check_boundary(scene_, boundary_of(scene_, mesh), mesh);
-    if (case_name().empty()) check_data(scene_, method_, mesh);
-    check_initial(initial_, mesh);
+    check_functions(scene_, initial_, method_, mesh);
   }
   std::unique_ptr<Discretization> discretize(const mesh::Mesh& mesh) const override {
     return std::make_unique<MembraneDiscretization>(scene_, make_space_, method_, linear_, initial_, mesh);

@@ -186,41 +186,54 @@ class DecoupledSystem final : public ReducedSystem {
                                       const algebra::LinearStop& stop, const Recover& recover) override {
     // |r|² = |theta1 r_w + r_z|² + |theta2 r_w - r_z|² <= 5 max(|r_w|, |r_z|)²
     constexpr double share = 0.4;
-    algebra::LinearReport mean;
-    mean.converged = true;
-    if (r_w.norm2() > share * stop.tolerance) {
-      if (!mean_ready_) mean_.set_matrix(membranes_.matrix[0], 1, coordinates_);
-      mean_ready_ = true;
-      Vector rhs(r_w, Teuchos::Copy);
-      rhs.scale(-1 / sum_);
-      algebra::LinearStop inner = stop;
-      inner.tolerance = share * stop.tolerance / sum_;
-      if (stop.criterion) inner.criterion = recovered(stop, recover, 0, [&](const Vector& x) { return std::pair(&x, &dz); });
-      mean = mean_.solve(rhs, dw, inner);
-      if (!mean.converged) return mean;
-    }
-
     Vector coupled(membranes_.map()), rhs(membranes_.map());
     apply(membranes_.theta[1] * membranes_.theta[1], membranes_.theta[0] * membranes_.theta[0], dz, coupled);
     right_side_z(R, r_z, dz, coupled, rhs);
+
+    algebra::LinearReport mean;
+    mean.converged = true;
+    mean.residual = r_w.norm2() / sum_;
+    if (sum_ * mean.residual > share * stop.tolerance) {
+      if (!mean_ready_) mean_.set_matrix(membranes_.matrix[0], 1, coordinates_);
+      mean_ready_ = true;
+      const double of_gap = algebra::residual(*A_, rhs, dz, coupled);
+      Vector mean_rhs(r_w, Teuchos::Copy);
+      mean_rhs.scale(-1 / sum_);
+      algebra::LinearStop inner = stop;
+      inner.tolerance = share * stop.tolerance / sum_;
+      if (stop.criterion)
+        inner.criterion = recovered(
+            stop, recover, 0, [&](const Vector& x) { return std::pair(&x, &dz); }, [&](double r) { return std::hypot(sum_ * r, of_gap); });
+      mean = mean_.solve(mean_rhs, dw, inner);
+      if (!mean.converged) {
+        mean.residual = std::hypot(sum_ * mean.residual, of_gap);
+        return mean;
+      }
+    }
+
     algebra::LinearStop inner = stop;
     inner.tolerance = share * stop.tolerance;
-    if (stop.criterion) inner.criterion = recovered(stop, recover, mean.iterations, [&](const Vector& x) { return std::pair(&dw, &x); });
+    const double of_mean = sum_ * mean.residual;
+    if (stop.criterion)
+      inner.criterion = recovered(
+          stop, recover, mean.iterations, [&](const Vector& x) { return std::pair(&dw, &x); },
+          [&](double r) { return std::hypot(of_mean, r); });
     algebra::LinearReport gap = gap_.solve(rhs, dz, inner);
     gap.iterations += mean.iterations;
-    gap.residual = std::hypot(gap.residual, sum_ * mean.residual);
+    gap.residual = std::hypot(gap.residual, of_mean);
+    gap.by_criterion = gap.by_criterion || mean.by_criterion;
     return gap;
   }
 
-  /// The criterion of the caller sees the full increment whichever part is being solved.
-  template <class Parts>
+  /// The criterion of the caller sees the full increment and the residual of both parts, whichever is being solved.
+  template <class Parts, class Residual>
   std::function<bool(const Vector&, int, double)> recovered(const algebra::LinearStop& stop, const Recover& recover, int before,
-                                                            Parts parts) const {
-    return [&stop, recover, before, parts, map = algebra::interlaced(membranes_.map(), 3)](const Vector& x, int i, double residual) {
+                                                            Parts parts, Residual both) const {
+    return [&stop, recover, before, parts, both, map = algebra::interlaced(membranes_.map(), 3)](const Vector& x, int i, double residual) {
       Vector dX(map);
       const auto [w, z] = parts(x);
       recover(*w, *z, dX);
-      return stop.criterion(dX, before + i, residual);
+      return stop.criterion(dX, before + i, both(residual));
     };
   }
 

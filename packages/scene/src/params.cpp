@@ -178,6 +178,7 @@ const core::Schema<SceneParams>& SceneParams::schema() {
           .choice("model", &SceneParams::model, models(), "The equations and what is constrained.")
           .required()
           .parameter("case", &SceneParams::case_name, case_names(), "A catalogued case (`thixis cases`); give this or 'data'.")
+          .exemplary()
           .block("data", &SceneParams::data, DataParams::schema())
           .parameter("interface", &SceneParams::interface,
                      "Expression whose zero set are the curves across which data jump, a product for several; integrals are exact in the "

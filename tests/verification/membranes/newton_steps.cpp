@@ -35,5 +35,17 @@ TEST(NewtonSteps, a_run_that_may_take_one_step_does_not_converge) {
   EXPECT_EQ(run.outcome.at.newton_iterations, 1);
   EXPECT_GT(run.outcome.kkt->worst(), 1e-3);
 }
+TEST(NewtonSteps, no_tolerance_of_the_solver_makes_the_verifier_accept_a_wrong_answer) {
+  auto params = catalogued("smooth contact", 2);
+  params.newton.start = complementarity::Start::cold;
+  params.linear.solver = algebra::SolverKind::gmres;
+  params.linear.preconditioner = algebra::PreconditionerKind::ilu;
+  params.stopping.nonlinear_tolerance = 0.9;
+  params.stopping.linear_tolerance = 0.5;
+  const Solved run = solve(params);
+  EXPECT_TRUE(run.outcome.solved);
+  EXPECT_LE(run.outcome.kkt_tolerance, 1e-3);
+  EXPECT_FALSE(run.outcome.kkt->holds(run.outcome.kkt_tolerance));
+}
 
 }  // namespace thixis::verification

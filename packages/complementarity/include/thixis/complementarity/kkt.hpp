@@ -21,8 +21,9 @@ struct KktData {
   double smallest_pairing = 1;                  ///< > 0: min_l D_l, λ_α,l = (residual of row l) / D_l
   double multiplier_scale = 1;                  ///< > 0: the size of a multiplier that matters, e.g. max |F_l|
 
-  /// What a residual r of the equations allows at one point: r / (smallest_pairing · multiplier_scale), but at least 1e-6.
-  double allowed(double r) const { return std::max(1e-6, r / (smallest_pairing * multiplier_scale)); }
+  /// What a residual r of the equations allows at one point, r / (smallest_pairing · multiplier_scale), but at least 1e-6 and at most 1e-3:
+  /// no tolerance of a solver makes a wrong answer right.
+  double allowed(double r) const { return std::min(std::max(1e-6, r / (smallest_pairing * multiplier_scale)), 1e-3); }
 };
 
 /// How far data are from g >= 0, λ >= 0, g λ = 0, λ in equilibrium with every body: relative, >= 0, maxima over all ranks; infinite where

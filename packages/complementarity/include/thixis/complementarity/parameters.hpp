@@ -36,10 +36,11 @@ enum class StoppingRule { exact, inexact, adaptive };
 /// Block `stopping`; what the rules mean is written at `newton()` in newton.hpp.
 struct StoppingParams {
   StoppingRule rule = StoppingRule::exact;
-  double linear_tolerance = 1e-10;      ///< eps_alg
-  double nonlinear_tolerance = 1e-9;    ///< eps_lin
-  double absolute_tolerance = 0;        ///< of the nonlinear residual, in the units of the equations
-  std::optional<double> kkt_tolerance;  ///< of the verifier, relative; not given: 1e-6, or what the nonlinear tolerance allows at one point
+  double linear_tolerance = 1e-10;    ///< eps_alg
+  double nonlinear_tolerance = 1e-9;  ///< eps_lin
+  double absolute_tolerance = 0;      ///< of the nonlinear residual, in the units of the equations
+  std::optional<double>
+      kkt_tolerance;  ///< of the verifier, relative; not given: 1e-6, or what the nonlinear tolerance allows at one point (at most 1e-3)
   double gamma_algebraic = 0.3;
   double gamma_linearization = 0.3;
   double inexact_factor = 0.3;   ///< alpha

@@ -69,6 +69,7 @@ class Description {
     Range range;
     std::string sentence;
     bool required = false;
+    bool exemplary = false;  ///< shown by a skeleton deck, though it may be left out
     std::function<void(void* object, const Value& value)> set;
     std::function<std::optional<Value>(const void* object)> get;  ///< nothing: not given
   };
@@ -91,6 +92,7 @@ class Description {
   void add(Block block);
   void add_check(std::function<void(const void*, Problems&)> check) { checks_.push_back(std::move(check)); }
   void require_last();
+  void show_last() { parameters_.back().exemplary = true; }
 
   const std::string& name() const { return name_; }
   const std::string& sentence() const { return sentence_; }

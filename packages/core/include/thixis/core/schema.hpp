@@ -161,6 +161,11 @@ class Schema {
     description_->require_last();
     return *this;
   }
+  /// The parameter added last belongs into a deck to start from (describe as xml), with the first of its names, though it may be left out.
+  Schema& exemplary() {
+    description_->show_last();
+    return *this;
+  }
   /// What no single parameter shows. Runs after the block is read, even if parts of it are wrong (those keep their defaults).
   Schema& check(const std::function<void(const P&, Problems&)>& f) {
     description_->add_check([f](const void* object, Problems& problems) { f(*static_cast<const P*>(object), problems); });
