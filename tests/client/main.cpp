@@ -40,8 +40,8 @@ bool solve() {
 
   const auto kkt = thixis::complementarity::verify(outcome.discretization->kkt_data(*outcome.X));
   const double error = outcome.energy_error.value() / outcome.energy_norm;
-  std::printf("%lld cells, %d Newton steps, relative energy error %.1e. %s\n", hierarchy.finest().global_cells, outcome.at.newton_iterations,
-              error, kkt.sentence(outcome.kkt_tolerance).c_str());
+  std::printf("%lld cells, %d Newton steps, relative energy error %.1e. %s\n", hierarchy.finest().global_cells,
+              outcome.at.newton_iterations, error, kkt.sentence(outcome.kkt_tolerance).c_str());
   return outcome.solved && kkt.holds(outcome.kkt_tolerance) && error < 0.2;
 }
 
