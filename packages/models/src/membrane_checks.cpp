@@ -92,6 +92,7 @@ void check_data(const scene::MembraneScene& scene, const method::MethodParams& m
 
 /// Throws where the functions that a cold start begins with are not finite. Collective.
 void check_initial(const std::array<scene::FieldPtr, 3>& initial, const mesh::Mesh& mesh) {
+  if (std::none_of(initial.begin(), initial.end(), [](const auto& field) { return field != nullptr; })) return;
   mesh.comm.together([&] {
     PointList vertices;
     const auto coordinates = mesh::on_host(mesh).coordinates;

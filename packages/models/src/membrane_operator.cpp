@@ -1,11 +1,8 @@
 #include "membrane_operator.hpp"
 
 namespace thixis::models {
-namespace {
 
 using Execution = algebra::Vector::execution_space;
-
-}  // namespace
 
 void split(const algebra::Vector& X, algebra::MultiVector& fields) {
   const auto x = X.getLocalViewDevice(Tpetra::Access::ReadOnly);

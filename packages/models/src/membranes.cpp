@@ -25,8 +25,7 @@ void check_size(const output::StoredCheckpoint& stored, const std::string& block
   if (saved == unknowns) return;
   throw core::InputError(
       fmt::format("The checkpoint '{}' belongs to another model, mesh or method: it holds {}, the deck asks for {}; leave scene/model, "
-                  "mesh, method and "
-                  "the kinds of the boundary as they were.",
+                  "mesh, method and the kinds of the boundary as they were.",
                   stored.path(), saved < 0 ? fmt::format("no '{}'", block) : fmt::format("{} values of '{}'", saved, block), unknowns));
 }
 

@@ -10,8 +10,6 @@ using algebra::Vector;
 using LocalMatrix = algebra::Matrix::local_matrix_device_type;
 using Execution = algebra::Matrix::execution_space;
 using Range = Kokkos::RangePolicy<Execution>;
-using Input = Vector::dual_view_type::t_dev::const_type;
-using Output = Vector::dual_view_type::t_dev;
 
 constexpr double contact_ratio = 1e10;
 
@@ -45,9 +43,8 @@ class ReducedSystem : public LinearizedSystem {
       const auto contact = output(contact_), penalty = output(penalty_);
       Kokkos::parallel_for(
           "thixis::models::contact", Range(0, D.extent_int(0)), KOKKOS_LAMBDA(int l) {
-            const double stiffness = D(l, 0) * Kokkos::Experimental::fabs(a_l(l, 0)),
-                         flexible = diagonal(l, 0) * Kokkos::Experimental::fabs(b_l(l, 0));
-            contact(l, 0) = stiffness >= contact_ratio * flexible ? 1 : 0;
+            const double held = D(l, 0) * a_l(l, 0), flexible = contact_ratio * diagonal(l, 0) * b_l(l, 0);
+            contact(l, 0) = held * held >= flexible * flexible ? 1 : 0;
             penalty(l, 0) = contact(l, 0) > 0 ? 0 : D(l, 0) * a_l(l, 0) / b_l(l, 0);
           });
     }

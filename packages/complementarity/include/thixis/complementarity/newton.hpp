@@ -63,11 +63,15 @@ struct NewtonReport {
 /// fails once but at least halves the linear residual, the step is taken and the next system is the second try; two failures in a row or
 /// a worse one end the run. The rule `adaptive` needs an error estimate and throws InputError here.
 ///
+/// **Smoothing.** With `sweeps` > 0 Problem::relax corrects X^k after each undamped Newton-min step; |R| and the contact set are those of
+/// the corrected iterate, so that both conditions above keep their meaning.
+///
 /// **Globalization.** Undamped steps use `c_function` and are never judged by |R|: it grows by orders of magnitude in a good Newton-min
 /// run. Damped steps use Fischer–Burmeister and Armijo backtracking on its merit function ½|R|². They last until |R| has fallen to a tenth
 /// (in each further fallback: to the square of the factor before), then the undamped steps go on.
 /// - `none`: undamped, but when Newton-min cycles, damped. A cycle is a contact set seen before, with another one in between, at the same
-///   |R| (up to 0.1 %), all linear systems since then solved to their tolerance: for linear E, K, G a proof that Newton-min does not end.
+///   |R| (up to 0.1 %), all linear systems since then solved to their tolerance: for linear E, K, G and without smoothing a proof that
+///   Newton-min does not end.
 /// - `line search`: damped steps first; Fischer–Burmeister stays damped to the end.
 /// - `hybrid`: as `none`; damped steps also, from the iterate where the undamped ones began, when |R| is not finite, or for ten successive
 ///   steps has been above its value ten steps before.
