@@ -54,21 +54,31 @@ struct Eliminate {
     }
   }
 
-  // A pivot is zero if it is nothing but rounding in a_kk = U_kk + sum over i < k of L_ki U_ik: a test without units.
+  // A pivot is zero if it is nothing but rounding in a_kk = U_kk + sum over i < k of L_ki U_ik: a test without units. Pivots are inverted
+  // in place.
 
-  /// On and above the diagonal, where L_ki = U_ik / U_ii; S is mirrored to below it.
+  /// U_i = A_i - sum over k < i of L_ik U_k, row by row on and above the diagonal, where L_ik = U_ki / U_kk; two k at a time take half the
+  /// loads and stores. S is mirrored to below the diagonal.
   KOKKOS_FUNCTION bool factor_symmetric(double* a) const {
     const int n = factors.n, m = factors.m;
-    for (int k = 0; k < m; ++k) {
-      const double* u = a + k * n;
-      double terms = u[k];
-      for (int i = 0; i < k; ++i) terms += a[i * n + k] * a[i * n + k] / a[i * n + i];
-      if (!(u[k] > rounding() * terms)) return false;
-      for (int i = k + 1; i < n; ++i) {
-        double* row = a + i * n;
-        const double factor = u[i] / u[k];
-        for (int j = i; j < n; ++j) row[j] -= factor * u[j];
+    for (int i = 0; i < n; ++i) {
+      double* __restrict__ row = a + i * n;
+      const double diagonal = row[i];
+      const int last = i < m ? i : m;
+      int k = 0;
+      for (; k + 1 < last; k += 2) {
+        const double *u = a + k * n, *v = u + n;
+        const double L_iu = u[i] * u[k], L_iv = v[i] * v[k + 1];
+        for (int j = i; j < n; ++j) row[j] -= L_iu * u[j] + L_iv * v[j];
       }
+      if (k < last) {
+        const double* u = a + k * n;
+        const double L_iu = u[i] * u[k];
+        for (int j = i; j < n; ++j) row[j] -= L_iu * u[j];
+      }
+      if (i >= m) continue;
+      if (!(row[i] > rounding() * diagonal)) return false;
+      row[i] = 1 / row[i];
     }
     for (int i = m; i < n; ++i)
       for (int j = m; j < i; ++j) a[i * n + j] = a[j * n + i];
@@ -91,10 +101,11 @@ struct Eliminate {
       double terms = std::abs(u[k]);
       for (int i = 0; i < k; ++i) terms += std::abs(u[i] * a[i * n + k]);
       if (!(std::abs(u[k]) > rounding() * terms)) return false;
+      u[k] = 1 / u[k];
       for (int i = k + 1; i < n; ++i) {
-        double* row = a + i * n;
-        const double factor = row[k] /= u[k];
-        for (int j = k + 1; j < n; ++j) row[j] -= factor * u[j];
+        double* __restrict__ row = a + i * n;
+        const double L_ik = row[k] *= u[k];
+        for (int j = k + 1; j < n; ++j) row[j] -= L_ik * u[j];
       }
     }
     return true;

@@ -16,7 +16,7 @@ struct LocalFactors {
 
   int n = 0, m = 0;
   bool symmetric = false;
-  PerElement<double> U;   ///< (element, row by row: U(k, j), k <= j < n)
+  PerElement<double> U;   ///< (element, row by row: 1 / U(k, k) and U(k, j), k < j < n)
   PerElement<double> L;   ///< (element, row by row: L(i, k), k < i and k < m); empty if symmetric
   PerElement<int> pivot;  ///< (element, k): the row that was exchanged with row k in step k; empty if symmetric
 
@@ -37,7 +37,7 @@ struct LocalFactors {
     if (symmetric) {
       for (int k = 0; k < m; ++k) {
         const double* row = &U(e, upper_begin(k)) - k;
-        const double factor = y[k] / row[k];
+        const double factor = y[k] * row[k];
         for (int j = k + 1; j < last; ++j) y[j] -= factor * row[j];
       }
       return;
@@ -61,7 +61,7 @@ struct LocalFactors {
       const double* row = &U(e, upper_begin(k)) - k;
       double sum = y[k];
       for (int j = k + 1; j < n; ++j) sum -= row[j] * y[j];
-      y[k] = sum / row[k];
+      y[k] = sum * row[k];
     }
   }
 };
