@@ -271,7 +271,7 @@ const algebra::MatrixPtr& Condensation::matrix() const { return impl_->matrix; }
 const Indices& Condensation::original_row() const { return impl_->original_row; }
 const Indices& Condensation::condensed_column() const { return impl_->condensed_column; }
 
-void Condensation::set_matrix(const LocalMatrices& local) {
+void Condensation::set_matrix(const FillLocalMatrices& local) {
   const Impl& d = *impl_;
   Kokkos::deep_copy(d.matrix->getLocalMatrixDevice().values, 0);
   d.comm().together([&] {

@@ -72,7 +72,7 @@ struct Strip {
 
   /// One local matrix after the other.
   template <class Entry>
-  LocalMatrices local(Entry entry) const {
+  FillLocalMatrices local(Entry entry) const {
     return [this, entry](LocalIndex first, const Block& A) {
       const auto host = Kokkos::create_mirror_view(A);
       for (int k = 0; k < host.extent_int(0); ++k)
@@ -82,7 +82,7 @@ struct Strip {
     };
   }
 
-  algebra::MatrixPtr assemble(const LocalMatrices& local) const {
+  algebra::MatrixPtr assemble(const FillLocalMatrices& local) const {
     const auto A = Teuchos::rcp(new algebra::Matrix(make_graph(rows, columns, unknowns)));
     A->fillComplete();
     const Block all("local", elements.size(), width, width);
@@ -274,7 +274,7 @@ TEST(Condensation, allocates_nothing_per_element) {
   for (const int refined : {0, 1}) {
     const Strip strip(refined ? 8000 : 1000, 2, 6, {});
     Condensation condensation = strip.condensation(LocalForm::positive_definite);
-    const LocalMatrices local = [](LocalIndex, const Block& A) {
+    const FillLocalMatrices local = [](LocalIndex, const Block& A) {
       for (int e = 0; e < A.extent_int(0); ++e)
         for (int i = 0; i < A.extent_int(1); ++i)
           for (int j = 0; j < A.extent_int(2); ++j) A(e, i, j) = i == j ? 2 : 0;

@@ -3,8 +3,7 @@
 
 namespace thixis::fem {
 
-/// Continuous Lagrange finite elements of degree p = 1 on triangles (docs/methods/fem.md).
-/// The mesh must outlive the space.
+/// Continuous finite elements of degree p = 1 … 4 on triangles (docs/methods/fem.md). The mesh must outlive the space. Collective.
 std::unique_ptr<method::Space> make_lagrange_space(const mesh::Mesh& mesh, const method::SpaceOptions& options);
 
 }  // namespace thixis::fem

@@ -9,7 +9,7 @@
 namespace thixis::method {
 
 /// (first, A): fills all of A(e, i, j), e < A.extent(0), with the local matrices of the elements first + e. Must not communicate.
-using LocalMatrices = std::function<void(LocalIndex first, const Kokkos::View<double***, Kokkos::LayoutRight>& A)>;
+using FillLocalMatrices = std::function<void(LocalIndex first, const Kokkos::View<double***, Kokkos::LayoutRight>& A)>;
 
 /// What the block A_II of every element is known to be.
 enum class LocalForm {
@@ -45,7 +45,7 @@ class Condensation {
 
   /// Collective. Factors the local matrices and assembles S, in blocks of elements that fit into the cache. Throws core::Error on all ranks
   /// if A_II of some element is singular (or not positive definite, where it should be), and what `local` throws.
-  void set_matrix(const LocalMatrices& local);
+  void set_matrix(const FillLocalMatrices& local);
   /// S; the same object before and after each set_matrix.
   const algebra::MatrixPtr& matrix() const;
 
