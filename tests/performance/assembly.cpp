@@ -3,6 +3,8 @@
 ///     bench_assembly [refinements]        T_refinements of the unit square, default 5: 65536 cells
 #include <fmt/format.h>
 
+#include <Tpetra_Core.hpp>
+
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
