@@ -16,7 +16,7 @@ struct Solved {
   drive::Outcome outcome;
 };
 
-/// Solves what the parameters describe by fem.
+/// Solves what the parameters describe.
 Solved solve(const drive::RunParams& params, const core::Comm& comm = core::Comm(), const drive::Observer& observer = {});
 
 /// A catalogued case on T_level: criss-cross 4 or 4 rings and so many refinements; nested start, direct solver on the reduced form.
@@ -28,6 +28,15 @@ drive::RunParams from_deck(const std::string& deck, int refinements);
 drive::RunParams data(const std::map<std::string, std::string>& functions, int level);
 /// Membranes with tensions mu1, mu2, held 0.1 apart from the plane and pressed together: contact in the middle of the unit square.
 drive::RunParams pressed(const std::string& mu1, const std::string& mu2, int level);
+
+/// The block `method` by its main entries.
+method::MethodParams by(method::MethodName name, int degree, method::Nodes nodes = method::Nodes::gauss_lobatto);
+
+/// The spaces of a method.
+method::SpaceFactory factory(method::MethodName name);
+
+/// All methods of one degree, each with its name for messages: fem, sipg, nipg, hho.
+std::vector<std::pair<std::string, method::MethodParams>> all_methods(int degree);
 
 /// log2 of the ratio of two successive errors.
 double order(double coarse, double fine);
