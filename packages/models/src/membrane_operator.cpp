@@ -34,10 +34,14 @@ MembraneOperator membrane_operator(const scene::MembraneScene& scene, const meth
   }
   if (method.condensed() && space.interior() > 0) membranes.condensed = CellForms{space.elements(), space.interior(), space.symmetric(), {}};
   for (int alpha = 0; alpha < scene.count; ++alpha) {
-    const bool again = constant && alpha > 0;
-    membranes.matrix[alpha] = again ? membranes.matrix[0] : space.stiffness(*tension[alpha]);
-    if (membranes.condensed)
-      membranes.condensed->form[alpha] = again ? membranes.condensed->form[0] : space.cell_form(*tension[alpha]);
+    auto& condensed = membranes.condensed;
+    if (constant && alpha > 0) {
+      membranes.matrix[alpha] = membranes.matrix[0];
+      if (condensed) condensed->form[alpha] = condensed->form[0];
+    } else {
+      membranes.matrix[alpha] = space.stiffness(*tension[alpha]);
+      if (condensed) condensed->form[alpha] = space.cell_form(*tension[alpha]);
+    }
     // what the Dirichlet data exert on the unknowns moves to the right
     Vector held(space.map());
     space.forces(*scene.tension[alpha], lift[alpha], held);
