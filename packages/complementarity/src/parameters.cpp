@@ -4,7 +4,8 @@ namespace thixis::complementarity {
 
 const core::Schema<InitialParams>& InitialParams::schema() {
   static const auto s = core::Schema<InitialParams>("initial", "Functions that a cold start begins with; what is not given is zero inside.")
-                            .parameter("u1", &InitialParams::u1, "Start of the upper membrane (of the only one, in obstacle problems).")
+                            .parameter("u", &InitialParams::u, "Start of the membrane of the obstacle problem.")
+                            .parameter("u1", &InitialParams::u1, "Start of the upper membrane.")
                             .parameter("u2", &InitialParams::u2, "Start of the lower membrane.")
                             .parameter("lambda", &InitialParams::lambda, "Start of the multiplier.");
   return s;
