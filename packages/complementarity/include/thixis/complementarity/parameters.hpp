@@ -26,9 +26,9 @@ struct NewtonParams {
   InitialParams initial;
   Globalization globalization = Globalization::none;
   Ties ties = Ties::contact;
-  double tie_tolerance = 0;
+  double tie_tolerance = 1e-12;
   Scaling scaling = Scaling::physical;
-  std::optional<int> sweeps;  ///< of nonlinear smoothing after a step; not given: 10 in nested runs, otherwise none
+  std::optional<int> sweeps;  ///< of nonlinear smoothing after a step; not given: 10 in nested runs of fem of degree 1, otherwise none
   static const core::Schema<NewtonParams>& schema();
 };
 

@@ -1,0 +1,335 @@
+#include "thixis/method/condensation.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "local_factors.hpp"
+#include "thixis/algebra/tpetra.hpp"
+#include "thixis/core/assert.hpp"
+#include "thixis/core/error.hpp"
+
+namespace thixis::method {
+namespace {
+
+using Execution = algebra::Graph::execution_space;
+using Block2 = Kokkos::View<double**, Kokkos::LayoutRight>;
+using Block3 = Kokkos::View<double***, Kokkos::LayoutRight>;
+using Input = decltype(std::declval<const algebra::Vector&>().getLocalViewDevice(Tpetra::Access::ReadOnly));
+using Output = decltype(std::declval<algebra::Vector&>().getLocalViewDevice(Tpetra::Access::ReadWrite));
+using Indices = Kokkos::View<const LocalIndex*>;
+
+constexpr LocalIndex none = std::numeric_limits<LocalIndex>::max();
+
+/// Local matrices of a block that fit, with their factors, into the second-level cache.
+constexpr std::size_t cache = 1 << 18;
+
+/// Partial LU factorization of the local matrices, in place: S replaces A_BB. Finds the first element that has none.
+struct Eliminate {
+  ElementUnknowns elements;
+  LocalIndex first;
+  LocalIndex kept;  ///< factors are kept of the elements before this one
+  Block3 A;
+  LocalFactors factors;  ///< out, overwritten
+
+  KOKKOS_FUNCTION void operator()(int e, LocalIndex& singular) const {
+    double* a = &A(e, 0, 0);
+    detach_fixed(e, a);
+    const bool regular = factors.symmetric ? factor_symmetric(a) : factor_general(e, a);
+    if (!regular && first + e < singular) singular = first + e;
+    if (first + e < kept) keep(e, a);
+  }
+
+  /// Interior unknowns -1 become identity rows and columns.
+  KOKKOS_FUNCTION void detach_fixed(int e, double* a) const {
+    const int n = factors.n;
+    for (int k = 0; k < factors.m; ++k) {
+      if (elements(first + e, k) >= 0) continue;
+      for (int j = 0; j < n; ++j) a[k * n + j] = a[j * n + k] = 0;
+      a[k * n + k] = 1;
+    }
+  }
+
+  // A pivot is zero if it is nothing but rounding in a_kk = U_kk + sum over i < k of L_ki U_ik: a test without units. Pivots are inverted
+  // in place.
+
+  /// U_i = A_i - sum over k < i of L_ik U_k, row by row on and above the diagonal, where L_ik = U_ki / U_kk; two k at a time take half the
+  /// loads and stores. S is mirrored to below the diagonal.
+  KOKKOS_FUNCTION bool factor_symmetric(double* a) const {
+    const int n = factors.n, m = factors.m;
+    for (int i = 0; i < n; ++i) {
+      double* __restrict__ row = a + i * n;
+      const double diagonal = row[i];
+      const int last = i < m ? i : m;
+      int k = 0;
+      for (; k + 1 < last; k += 2) {
+        const double *u = a + k * n, *v = u + n;
+        const double L_iu = u[i] * u[k], L_iv = v[i] * v[k + 1];
+        for (int j = i; j < n; ++j) row[j] -= L_iu * u[j] + L_iv * v[j];
+      }
+      if (k < last) {
+        const double* u = a + k * n;
+        const double L_iu = u[i] * u[k];
+        for (int j = i; j < n; ++j) row[j] -= L_iu * u[j];
+      }
+      if (i >= m) continue;
+      if (!(row[i] > rounding() * diagonal)) return false;
+      row[i] = 1 / row[i];
+    }
+    for (int i = m; i < n; ++i)
+      for (int j = m; j < i; ++j) a[i * n + j] = a[j * n + i];
+    return true;
+  }
+
+  KOKKOS_FUNCTION bool factor_general(int e, double* a) const {
+    const int n = factors.n, m = factors.m;
+    for (int k = 0; k < m; ++k) {
+      int pivot = k;
+      for (int i = k + 1; i < m; ++i)
+        if (std::abs(a[i * n + k]) > std::abs(a[pivot * n + k])) pivot = i;
+      if (first + e < kept) factors.pivot(first + e, k) = pivot;
+      double* u = a + k * n;
+      for (int j = 0; j < n && pivot != k; ++j) {
+        const double exchanged = u[j];
+        u[j] = a[pivot * n + j];
+        a[pivot * n + j] = exchanged;
+      }
+      double terms = std::abs(u[k]);
+      for (int i = 0; i < k; ++i) terms += std::abs(u[i] * a[i * n + k]);
+      if (!(std::abs(u[k]) > rounding() * terms)) return false;
+      u[k] = 1 / u[k];
+      for (int i = k + 1; i < n; ++i) {
+        double* __restrict__ row = a + i * n;
+        const double L_ik = row[k] *= u[k];
+        for (int j = k + 1; j < n; ++j) row[j] -= L_ik * u[j];
+      }
+    }
+    return true;
+  }
+
+  KOKKOS_FUNCTION double rounding() const { return factors.m * std::numeric_limits<double>::epsilon(); }
+
+  KOKKOS_FUNCTION void keep(int e, const double* a) const {
+    const int n = factors.n, m = factors.m;
+    double* U = &factors.U(first + e, 0);
+    for (int k = 0; k < m; ++k)
+      for (int j = k; j < n; ++j) *U++ = a[k * n + j];
+    if (factors.symmetric) return;
+    double* L = &factors.L(first + e, 0);
+    for (int i = 1; i < n; ++i)
+      for (int k = 0; k < (i < m ? i : m); ++k) *L++ = a[i * n + k];
+  }
+};
+
+/// y_B = -A_BI A_II^{-1} b_I; unknowns of other ranks count as 0 in b_I.
+struct Reduce {
+  ElementUnknowns elements;
+  LocalIndex first;
+  LocalFactors factors;
+  Input b;
+  Block2 y;  ///< out, overwritten
+
+  KOKKOS_FUNCTION void operator()(int e) const {
+    for (int i = 0; i < factors.n; ++i) {
+      const LocalIndex row = i < factors.m ? elements(first + e, i) : -1;
+      y(e, i) = row >= 0 && row < b.extent_int(0) ? b(row, 0) : 0;
+    }
+    factors.forward(first + e, &y(e, 0), factors.n);
+  }
+};
+
+/// x_I = A_II^{-1} (b_I - A_IB x_B).
+struct Recover {
+  ElementUnknowns elements, remaining;
+  LocalIndex first;
+  LocalFactors factors;
+  Input b, x_remaining;
+  Block2 y;
+  Output x;  ///< out, rows of I overwritten
+
+  KOKKOS_FUNCTION void operator()(int e) const {
+    const int n = factors.n, m = factors.m;
+    for (int i = 0; i < m; ++i) {
+      const LocalIndex row = elements(first + e, i);
+      y(e, i) = row >= 0 && row < b.extent_int(0) ? b(row, 0) : 0;
+    }
+    for (int i = m; i < n; ++i) {
+      const LocalIndex column = remaining(first + e, i);
+      y(e, i) = column >= 0 ? x_remaining(column, 0) : 0;
+    }
+    factors.forward(first + e, &y(e, 0), m);
+    factors.backward(first + e, &y(e, 0));
+    for (int i = 0; i < m; ++i)
+      if (const LocalIndex row = elements(first + e, i); row >= 0 && row < x.extent_int(0)) x(row, 0) = y(e, i);
+  }
+};
+
+/// f(first, count) for blocks of elements.
+template <class F>
+void over_blocks(LocalIndex elements, LocalIndex length, F&& f) {
+  for (LocalIndex first = 0; first < elements; first += length) f(first, std::min(length, elements - first));
+}
+
+Kokkos::View<LocalIndex*> on_device(const std::vector<LocalIndex>& host, const std::string& label) {
+  const Kokkos::View<LocalIndex*> view(label, host.size());
+  Kokkos::deep_copy(view, Kokkos::View<const LocalIndex*, Kokkos::HostSpace>(host.data(), host.size()));
+  return view;
+}
+
+}  // namespace
+
+struct Condensation::Impl {
+  ElementUnknowns elements;   ///< original columns
+  ElementUnknowns remaining;  ///< columns of the condensed graph, -1 for all that has none
+  algebra::MapPtr rows;
+  algebra::GraphPtr graph;
+  algebra::MatrixPtr matrix;
+  Indices original_row, condensed_column;
+  LocalIndex kept = 0;  ///< all elements with interior unknowns on this rank come before
+  LocalFactors factors;
+  Block3 A;  ///< a block of local matrices
+  Block2 y;  ///< a block of local vectors
+
+  core::Comm comm() const { return algebra::comm_of(*rows); }
+
+  void number(const algebra::MapPtr& all_rows, const algebra::MapPtr& all_columns, int interior) {
+    const auto unknowns = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), elements);
+    const int count = unknowns.extent_int(0), width = unknowns.extent_int(1);
+    const LocalIndex row_count = algebra::local_size(*all_rows);
+
+    std::vector<bool> eliminated(row_count, false);
+    for (int e = 0; e < count; ++e)
+      for (int i = 0; i < interior; ++i) {
+        const LocalIndex row = unknowns(e, i);
+        if (row < 0 || row >= row_count) continue;
+        THIXIS_ASSERT(!eliminated[row], "row {} is interior to element {} alone", row, e);
+        eliminated[row] = true;
+        kept = e + 1;
+      }
+    std::vector<LocalIndex> original;
+    for (LocalIndex row = 0; row < row_count; ++row)
+      if (!eliminated[row]) original.push_back(row);
+    rows = algebra::contiguous_map(static_cast<LocalIndex>(original.size()), algebra::comm_of(*all_rows));
+
+    // one number per unknown tells the ghosts: the id among those that remain, or -1
+    algebra::Vector id(all_rows), ghosted_id(all_columns);
+    id.putScalar(-1);
+    {
+      const auto values = algebra::host_view(id);
+      for (std::size_t k = 0; k < original.size(); ++k)
+        values(original[k]) = static_cast<double>(rows->getGlobalElement(static_cast<LocalIndex>(k)));
+    }
+    ghosted_id.doImport(id, algebra::Import(all_rows, all_columns), Tpetra::INSERT);
+    std::vector<LocalIndex> condensed(algebra::local_size(*all_columns), -1);
+    std::vector<GlobalIndex> ids;
+    {
+      const auto values = algebra::host_view(std::as_const(ghosted_id));
+      for (std::size_t column = 0; column < condensed.size(); ++column) {
+        if (values(column) < 0) continue;
+        condensed[column] = static_cast<LocalIndex>(ids.size());
+        ids.push_back(static_cast<GlobalIndex>(values(column)));
+      }
+    }
+
+    const Kokkos::View<LocalIndex**, Kokkos::LayoutRight> left("thixis::method::remaining", count, width);
+    const auto host = Kokkos::create_mirror_view(left);
+    for (int e = 0; e < count; ++e)
+      for (int i = 0; i < width; ++i) host(e, i) = i < interior || unknowns(e, i) < 0 ? -1 : condensed[unknowns(e, i)];
+    Kokkos::deep_copy(left, host);
+    remaining = left;
+    original_row = on_device(original, "thixis::method::original_row");
+    condensed_column = on_device(condensed, "thixis::method::condensed_column");
+    graph = make_graph(rows, algebra::map_of(ids, comm()), remaining);
+  }
+};
+
+Condensation::Condensation(const algebra::MapPtr& rows, const algebra::MapPtr& columns, const ElementUnknowns& elements, int interior,
+                           LocalForm form)
+    : impl_(std::make_unique<Impl>()) {
+  impl_->elements = elements;
+  impl_->number(rows, columns, interior);
+  impl_->matrix = Teuchos::rcp(new algebra::Matrix(impl_->graph));
+  impl_->matrix->fillComplete();
+
+  const int n = elements.extent_int(1), count = elements.extent_int(0);
+  impl_->factors = LocalFactors(impl_->kept, n, interior, form == LocalForm::positive_definite);
+  const std::size_t bytes = sizeof(double) * n * n;
+  const std::size_t length = Execution().concurrency() * std::clamp<std::size_t>(cache / std::max<std::size_t>(bytes, 1), 1, block_size);
+  impl_->A = Block3("thixis::method::local_matrices", std::min<std::size_t>(length, count), n, n);
+  impl_->y = Block2("thixis::method::local_vectors", std::min<std::size_t>(block_size, count), n);
+}
+
+Condensation::~Condensation() = default;
+
+algebra::MapPtr Condensation::rows() const { return impl_->rows; }
+algebra::GraphPtr Condensation::graph() const { return impl_->graph; }
+const algebra::MatrixPtr& Condensation::matrix() const { return impl_->matrix; }
+const Indices& Condensation::original_row() const { return impl_->original_row; }
+const Indices& Condensation::condensed_column() const { return impl_->condensed_column; }
+
+void Condensation::set_matrix(const FillLocalMatrices& local) {
+  const Impl& d = *impl_;
+  Kokkos::deep_copy(d.matrix->getLocalMatrixDevice().values, 0);
+  d.comm().together([&] {
+    over_blocks(d.elements.extent_int(0), d.A.extent_int(0), [&](LocalIndex first, LocalIndex count) {
+      const auto A = Kokkos::subview(d.A, std::pair(0, count), Kokkos::ALL, Kokkos::ALL);
+      local(first, A);
+      LocalIndex singular = none;
+      Kokkos::parallel_reduce("thixis::method::eliminate", Kokkos::RangePolicy<Execution>(0, count),
+                              Eliminate{d.elements, first, d.kept, A, d.factors}, Kokkos::Min<LocalIndex>(singular));
+      if (singular != none)
+        throw core::Error(core::ExitCode::internal,
+                          fmt::format("The interior unknowns of element {} can not be eliminated: their matrix is {}.", singular,
+                                      d.factors.symmetric ? "not positive definite" : "singular"));
+      scatter(d.remaining, first, A, *d.matrix);
+    });
+  });
+}
+
+void Condensation::reduce(const algebra::Vector& b, algebra::Vector& b_condensed) const {
+  const Impl& d = *impl_;
+  const auto values = b.getLocalViewDevice(Tpetra::Access::ReadOnly);
+  algebra::Vector shares(d.graph->getColMap());
+  over_blocks(d.kept, d.y.extent_int(0), [&](LocalIndex first, LocalIndex count) {
+    const auto y = Kokkos::subview(d.y, std::pair(0, count), Kokkos::ALL);
+    Kokkos::parallel_for("thixis::method::reduce", Kokkos::RangePolicy<Execution>(0, count),
+                         Reduce{d.elements, first, d.factors, values, y});
+    scatter(d.remaining, first, y, shares);
+  });
+  b_condensed.putScalar(0);
+  const auto import = d.graph->getImporter();
+  if (import.is_null()) b_condensed.assign(shares);
+  else b_condensed.doExport(shares, *import, Tpetra::ADD);
+
+  const auto original_row = d.original_row;
+  const auto sum = b_condensed.getLocalViewDevice(Tpetra::Access::ReadWrite);
+  Kokkos::parallel_for(
+      "thixis::method::reduce_own", Kokkos::RangePolicy<Execution>(0, original_row.extent_int(0)),
+      KOKKOS_LAMBDA(int row) { sum(row, 0) += values(original_row(row), 0); });
+}
+
+void Condensation::recover(const algebra::Vector& b, const algebra::Vector& x_condensed, algebra::Vector& x) const {
+  const Impl& d = *impl_;
+  algebra::Vector ghosted(d.graph->getColMap(), false);
+  const auto import = d.graph->getImporter();
+  if (import.is_null()) ghosted.assign(x_condensed);
+  else ghosted.doImport(x_condensed, *import, Tpetra::INSERT);
+  const auto given = b.getLocalViewDevice(Tpetra::Access::ReadOnly);
+  const Input remaining = std::as_const(ghosted).getLocalViewDevice(Tpetra::Access::ReadOnly);
+  const auto values = x.getLocalViewDevice(Tpetra::Access::OverwriteAll);
+  const auto original_row = d.original_row;
+  Kokkos::parallel_for(
+      "thixis::method::recover_own", Kokkos::RangePolicy<Execution>(0, original_row.extent_int(0)),
+      KOKKOS_LAMBDA(int row) { values(original_row(row), 0) = remaining(row, 0); });
+  over_blocks(d.kept, d.y.extent_int(0), [&](LocalIndex first, LocalIndex count) {
+    const auto y = Kokkos::subview(d.y, std::pair(0, count), Kokkos::ALL);
+    Kokkos::parallel_for("thixis::method::recover", Kokkos::RangePolicy<Execution>(0, count),
+                         Recover{d.elements, d.remaining, first, d.factors, given, remaining, y, values});
+  });
+}
+
+}  // namespace thixis::method
