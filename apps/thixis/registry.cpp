@@ -2,6 +2,7 @@
 #include "registry.hpp"
 
 #include "thixis/core/error.hpp"
+#include "thixis/dg/space.hpp"
 #include "thixis/fem/lagrange_space.hpp"
 #include "thixis/models/membranes.hpp"
 #include "thixis/scene/membranes.hpp"
@@ -13,8 +14,10 @@ method::SpaceFactory make_method(const method::MethodParams& method) {
   switch (method.name) {
     case method::MethodName::fem:
       return fem::make_lagrange_space;
+    case method::MethodName::dg:
+      return dg::make_space;
     default:
-      throw core::InputError("method/name: this version serves fem only; write fem.");
+      throw core::InputError("method/name: this version serves fem and dg; write one of them.");
   }
 }
 

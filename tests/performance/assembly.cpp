@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 
 #include <Tpetra_Core.hpp>
-
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
 
 #include "thixis/algebra/tpetra.hpp"
@@ -16,6 +16,7 @@
 #include "thixis/mesh/build.hpp"
 #include "thixis/mesh/mesh.hpp"
 #include "thixis/method/gradient_form.hpp"
+#include "thixis/method/quadrature.hpp"
 
 namespace thixis {
 namespace {
@@ -112,6 +113,22 @@ void measure(const Subject& subject, const mesh::Mesh& mesh, double bytes_per_se
              matrix / bound);
 }
 
+/// What it costs to follow a circle through the cells, at the orders that degree p asks for.
+void measure_cut_cells(const mesh::Mesh& mesh) {
+  const auto circle = scene::formula([](double x, double y) { return std::hypot(x - 0.5, y - 0.5) - 1.0 / 3; });
+  const auto cells = method::owned_cells(mesh);
+  fmt::print("\n{:>6} {:>10} {:>10} {:>10} {:>12} {:>12}\n", "order", "points", "cut cells", "points", "plain rule", "with circle");
+  for (int p = 1; p <= 4; ++p) {
+    method::MethodParams params;
+    params.degree = p;
+    method::CellQuadrature rule;
+    const double plain = seconds([&] { rule = method::make_quadrature(mesh, cells, params.order(), nullptr); });
+    const double cut = seconds([&] { rule = method::make_quadrature(mesh, cells, params.order(), circle); });
+    fmt::print("{:6} {:10} {:10} {:10.0f} {:10.4f} s {:10.4f} s\n", params.order(), rule.rule_weight.extent(0), rule.cut_cells(),
+               static_cast<double>(rule.own_weight.extent(0)) / rule.cut_cells(), plain, cut);
+  }
+}
+
 }  // namespace
 }  // namespace thixis
 
@@ -126,5 +143,6 @@ int main(int argc, char** argv) {
   fmt::print("{:8} {:>4} {:>10} {:>10} {:>10} {:>10} {:>10} {:>8} {:>8}\n", "method", "n", "nonzeros", "space", "kernel", "matrix", "load",
              "bound", "ratio");
   for (const auto& subject : thixis::subjects()) thixis::measure(subject, levels.finest(), bytes_per_second, flops_per_second);
+  thixis::measure_cut_cells(levels.finest());
   return 0;
 }

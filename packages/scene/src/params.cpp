@@ -83,14 +83,14 @@ bool examine_names(const SceneParams& params, const Report& report) {
 }
 
 void examine_exact(const std::vector<MembraneEntries>& membranes, const DataParams& data, const Report& report) {
-  std::string needed;  // "u1 and u2"
+  std::string all;  // "u1 and u2"
   bool known = true;
   for (const auto& m : membranes) {
-    needed += (needed.empty() ? "u" : " and u") + m.index;
+    all += (all.empty() ? "u" : " and u") + m.index;
     known = known && !(data.*m.u).empty();
   }
   if (!known && !data.lambda.empty())
-    report("data/lambda", fmt::format("an exact multiplier is of use together with {0} only; give {0} or drop lambda.", needed));
+    report("data/lambda", fmt::format("an exact multiplier is of use together with {0} only; give {0} or drop lambda.", all));
   for (const auto& m : membranes) {
     const std::string u = "u" + m.index, path = "data/" + u;
     const bool in_x = !(data.*m.u_x).empty(), in_y = !(data.*m.u_y).empty();
@@ -105,6 +105,7 @@ void examine_exact(const std::vector<MembraneEntries>& membranes, const DataPara
 
 void examine_dirichlet(const std::vector<MembraneEntries>& membranes, const SceneParams& params, const Report& report) {
   const auto held = [&data = *params.data](const MembraneEntries& m) { return !(data.*m.g).empty() || !(data.*m.u).empty(); };
+  // parts that are not named are held by the data: every membrane or none
   const bool everywhere = params.boundary.empty() || std::any_of(membranes.begin(), membranes.end(), held);
   for (const auto& m : membranes) {
     const std::string& l = m.index;

@@ -155,8 +155,9 @@ TEST(Case, of_torsion_has_contact_on_the_unit_square_and_the_unit_disk) {
   EXPECT_EQ(*scene.default_boundary.value[0]->constant(), 0);
   const double psi = *scene.obstacle->constant(), f = *scene.force[0]->constant();
   EXPECT_LT(psi, 0);
-  const double R = 0.5;                 // both domains contain a disk of this radius, where without an obstacle
-  EXPECT_LT(f * R * R / 4, 1.5 * psi);  // -Lap u = f, u <= 0 on its edge, so u <= f (R^2 - r^2)/4
+  // both domains contain a disk of radius R; without the obstacle -Lap u = f in it and u <= 0 on its edge, so u <= f (R^2 - r^2)/4
+  const double R = 0.5;
+  EXPECT_LT(f * R * R / 4, 1.5 * psi);
 }
 
 TEST(Case, starts_the_disks_from_flat_membranes) {
