@@ -181,6 +181,6 @@ TEST_P(Condensed, bubbles_of_fem_have_the_iterates_of_the_uncondensed_systems) {
 }
 INSTANTIATE_TEST_SUITE_P(CFunction, Condensed,
                          ::testing::Values(complementarity::CFunction::min, complementarity::CFunction::fischer_burmeister),
-                         [](const auto& info) { return info.param == complementarity::CFunction::min ? "min" : "fischer_burmeister"; });
+                         [](const auto& chosen) { return chosen.param == complementarity::CFunction::min ? "min" : "fischer_burmeister"; });
 
 }  // namespace thixis::verification
