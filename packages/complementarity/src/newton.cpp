@@ -140,7 +140,8 @@ class Run {
     ++report_.steps;
     changed_ = now.active.changed(before.active);
     if (observer_.step)
-      observer_.step({report_.steps, system_.linear_iterations() - iterations, now.active.count(), changed_, now.residual, now.equations, now.complementarity, solver.getStepSize(), elapsed.count()});
+      observer_.step({report_.steps, system_.linear_iterations() - iterations, now.active.count(), changed_, now.residual, now.equations,
+                      now.complementarity, solver.getStepSize(), elapsed.count()});
     if (observer_.iterate) observer_.iterate(dynamic_cast<const NoxGroup&>(solver.getSolutionGroup()).X());
     return status;
   }
@@ -181,7 +182,8 @@ class Run {
     report_.residual_equations = last_.equations;
     report_.residual_complementarity = last_.complementarity;
     report_.active = last_.active.count();
-    report_.settled = !(report_.converged && params_.c_function == CFunction::min && changed_ > 0);
+    const bool still_changing = changed_ > 0 && last_.residual > 2 * system_.left();
+    report_.settled = !(report_.converged && params_.c_function == CFunction::min && still_changing);
     report_.active_set = last_.active;
     return report_;
   }

@@ -203,7 +203,8 @@ void check_served(const RunParams& params) {
     mistakes.push_back(
         "linear/solver: conjugate gradients need a symmetric system, and that of nipg is not: write 'gmres', or the variant 'sipg'.");
   if (muelu && nipg)
-    mistakes.push_back("linear/preconditioner: muelu needs a symmetric system, and that of nipg is not: write 'ilu', or the variant 'sipg'.");
+    mistakes.push_back(
+        "linear/preconditioner: muelu needs a symmetric system, and that of nipg is not: write 'ilu', or the variant 'sipg'.");
   if (!mistakes.empty()) throw core::InputError(fmt::format("{}", fmt::join(mistakes, "\n")));
 }
 

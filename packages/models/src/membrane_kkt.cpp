@@ -40,13 +40,6 @@ double largest(const Coefficients& u, const core::Comm& comm) {
   return comm.max(value);
 }
 
-Coefficients difference(const Coefficients& u, const Coefficients& v) {
-  const Coefficients w("thixis::models::gap", u.extent(0));
-  Kokkos::parallel_for(
-      "thixis::models::difference", Kokkos::RangePolicy<>(0, u.extent_int(0)), KOKKOS_LAMBDA(int i) { w(i) = u(i) - v(i); });
-  return w;
-}
-
 /// v / D at the contact points.
 Teuchos::RCP<Vector> over_pairing(const Vector& v, const Vector& pairing) {
   auto quotient = Teuchos::rcp(new Vector(pairing.getMap()));
@@ -97,12 +90,14 @@ complementarity::KktData kkt_data(const MembraneSolution& solution) {
   gap(membranes, x.u, *gap_l);
   data.gap = gap_l;
   data.claimed = Teuchos::rcp(new Vector(x.lambda, Teuchos::Copy));
-  data.between_nodes = scene.count == 1 ? space.penetration(u[0], scene.obstacle.get(), 0) : space.penetration(difference(u[0], u[1]), nullptr, 0);
+  data.between_nodes =
+      scene.count == 1 ? space.penetration(u[0], scene.obstacle.get(), 0) : space.penetration(difference(u[0], u[1]), nullptr, 0);
 
   const Extent domain = extent_of(space.mesh());
   const auto points = static_cast<double>(std::max<std::size_t>(membranes.points()->getGlobalNumElements(), 1));
   const double mean_pairing = membranes.points()->getGlobalNumElements() > 0 ? D.meanValue() : 1;
-  const double per_area = domain.area / points / mean_pairing;  // of X3: about 1 for nodal values, |K| over the points of a cell for moments
+  const double per_area =
+      domain.area / points / mean_pairing;  // of X3: about 1 for nodal values, |K| over the points of a cell for moments
   double size = 0;
   data.multiplier_scale = 0;
   for (int alpha = 0; alpha < scene.count; ++alpha) {

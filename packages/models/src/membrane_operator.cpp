@@ -32,7 +32,8 @@ MembraneOperator membrane_operator(const scene::MembraneScene& scene, const meth
     membranes.factor[alpha] = *scene.tension[alpha]->constant();
     tension[alpha] = scene::constant(1);
   }
-  if (method.condensed() && space.interior() > 0) membranes.condensed = CellForms{space.elements(), space.interior(), space.symmetric(), {}};
+  if (method.condensed() && space.interior() > 0)
+    membranes.condensed = CellForms{space.elements(), space.interior(), space.symmetric(), {}};
   for (int alpha = 0; alpha < scene.count; ++alpha) {
     auto& condensed = membranes.condensed;
     if (constant && alpha > 0) {
@@ -109,6 +110,13 @@ void join(const MultiVector& columns, Vector& x) {
       "thixis::models::join_columns", Range(0, in.extent_int(0)), KOKKOS_LAMBDA(int l) {
         for (int f = 0; f < width; ++f) out(width * l + f, 0) = in(l, f);
       });
+}
+
+method::Coefficients difference(const method::Coefficients& u, const method::Coefficients& v) {
+  const method::Coefficients w("thixis::models::difference", u.extent(0));
+  Kokkos::parallel_for(
+      "thixis::models::difference", Range(0, u.extent_int(0)), KOKKOS_LAMBDA(int i) { w(i) = u(i) - v(i); });
+  return w;
 }
 
 void gap(const MembraneOperator& membranes, const MultiVector& u, Vector& K) {

@@ -142,7 +142,8 @@ double MembraneProblem::reference_norm() const {
 }
 
 GlobalIndex MembraneProblem::unknowns() const {
-  return static_cast<GlobalIndex>(membranes_.count * membranes_.map()->getGlobalNumElements() + membranes_.points()->getGlobalNumElements());
+  return static_cast<GlobalIndex>(membranes_.count * membranes_.map()->getGlobalNumElements() +
+                                  membranes_.points()->getGlobalNumElements());
 }
 GlobalIndex MembraneProblem::rows() const {
   if (params_.form == algebra::SystemForm::full && !membranes_.condensed) return unknowns();

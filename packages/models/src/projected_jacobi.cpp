@@ -48,9 +48,15 @@ void projected_jacobi(const MembraneOperator& membranes, int sweeps, Fields& x) 
     else ghosted.doImport(x.u, *import, Tpetra::INSERT);
     const auto u = read(ghosted);
     const auto out = x.u.getLocalViewDevice(Tpetra::Access::ReadWrite);
-    Sweep<std::decay_t<decltype(u)>, std::decay_t<decltype(out)>> kernel{
-        membranes.count, {}, {membranes.factor[0], membranes.factor[1]}, u, {}, read(*membranes.pairing), {}, out,
-        x.lambda.getLocalViewDevice(Tpetra::Access::OverwriteAll)};
+    Sweep<std::decay_t<decltype(u)>, std::decay_t<decltype(out)>> kernel{membranes.count,
+                                                                         {},
+                                                                         {membranes.factor[0], membranes.factor[1]},
+                                                                         u,
+                                                                         {},
+                                                                         read(*membranes.pairing),
+                                                                         {},
+                                                                         out,
+                                                                         x.lambda.getLocalViewDevice(Tpetra::Access::OverwriteAll)};
     for (int alpha = 0; alpha < membranes.count; ++alpha) {
       kernel.S[alpha] = membranes.matrix[alpha]->getLocalMatrixDevice();
       kernel.F[alpha] = read(*membranes.load[alpha]);
