@@ -14,7 +14,8 @@ using Range = Kokkos::RangePolicy<Vector::execution_space>;
 /// (element, fields i + f): unknown i, field f.
 ElementUnknowns interlaced(const ElementUnknowns& elements, int fields) {
   if (fields == 1) return elements;
-  const Kokkos::View<LocalIndex**, Kokkos::LayoutRight> all("thixis::models::element_fields", elements.extent(0), fields * elements.extent(1));
+  const Kokkos::View<LocalIndex**, Kokkos::LayoutRight> all("thixis::models::element_fields", elements.extent(0),
+                                                            fields * elements.extent(1));
   Kokkos::parallel_for(
       "thixis::models::element_fields", Range(0, elements.extent_int(0)), KOKKOS_LAMBDA(int e) {
         for (int i = 0; i < elements.extent_int(1); ++i)
@@ -97,9 +98,9 @@ class CondensedSolver final : public ConstrainedSolver {
         forms_.form[alpha]->matrices(first, S[alpha]);
       }
       if (one) S[1] = S[0];
-      Kokkos::parallel_for("thixis::models::constrain", Range(0, A.extent_int(0)),
-                           Constrain<std::decay_t<decltype(known)>>{
-                               {S[0], S[1]}, blocks_, forms_.elements, first, known, added, share_, A});
+      Kokkos::parallel_for(
+          "thixis::models::constrain", Range(0, A.extent_int(0)),
+          Constrain<std::decay_t<decltype(known)>>{{S[0], S[1]}, blocks_, forms_.elements, first, known, added, share_, A});
     });
     solver_.set_matrix(condensation_.matrix(), blocks_.fields, coordinates_);
   }
@@ -148,7 +149,8 @@ class CondensedSolver final : public ConstrainedSolver {
   Teuchos::RCP<const MultiVector> coordinates_left(const MultiVector& coordinates) const {
     const auto original = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), condensation_.original_row());
     const int fields = blocks_.fields, nodes = original.extent_int(0) / fields;
-    auto left = Teuchos::rcp(new MultiVector(algebra::contiguous_map(nodes, algebra::comm_of(*membranes_.map())), coordinates.getNumVectors()));
+    auto left =
+        Teuchos::rcp(new MultiVector(algebra::contiguous_map(nodes, algebra::comm_of(*membranes_.map())), coordinates.getNumVectors()));
     const auto all = coordinates.getLocalViewHost(Tpetra::Access::ReadOnly);
     const auto out = left->getLocalViewHost(Tpetra::Access::OverwriteAll);
     for (int node = 0; node < nodes; ++node)

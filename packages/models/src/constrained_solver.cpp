@@ -70,12 +70,11 @@ class AssembledSolver final : public ConstrainedSolver {
     const Vector contact_columns = at_columns(membranes_, contact);
     const auto known = contact_columns.getLocalViewDevice(Tpetra::Access::ReadOnly);
     const LocalMatrix S = membranes_.matrix[0]->getLocalMatrixDevice();
-    const Fill<std::decay_t<decltype(known)>> fill{
-        {S, membranes_.matrix[1].is_null() ? S : membranes_.matrix[1]->getLocalMatrixDevice()},
-        blocks_,
-        known,
-        penalty.getLocalViewDevice(Tpetra::Access::ReadOnly),
-        own_->getLocalMatrixDevice()};
+    const Fill<std::decay_t<decltype(known)>> fill{{S, membranes_.matrix[1].is_null() ? S : membranes_.matrix[1]->getLocalMatrixDevice()},
+                                                   blocks_,
+                                                   known,
+                                                   penalty.getLocalViewDevice(Tpetra::Access::ReadOnly),
+                                                   own_->getLocalMatrixDevice()};
     Kokkos::parallel_for("thixis::models::constrained_matrix", Range(0, S.numRows()), fill);
     A_ = own_;
     solver_.set_matrix(A_, blocks_.fields, coordinates_);

@@ -85,7 +85,8 @@ class FullSystem final : public LinearizedSystem {
   void linearize(const algebra::Vector& a, const algebra::Vector& b) override {
     const auto read = [](const algebra::Vector& v) { return v.getLocalViewDevice(Tpetra::Access::ReadOnly); };
     const auto D = read(*membranes_.pairing);
-    Fill<decltype(D)> fill{{}, {membranes_.factor[0], membranes_.factor[1]}, layout(membranes_), D, read(a), read(b), A_->getLocalMatrixDevice()};
+    Fill<decltype(D)> fill{
+        {}, {membranes_.factor[0], membranes_.factor[1]}, layout(membranes_), D, read(a), read(b), A_->getLocalMatrixDevice()};
     for (int alpha = 0; alpha < membranes_.count; ++alpha) fill.S[alpha] = membranes_.matrix[alpha]->getLocalMatrixDevice();
     Kokkos::parallel_for("thixis::models::full_system", Kokkos::RangePolicy<Execution>(0, fill.S[0].numRows()), fill);
     solver_.set_matrix(A_, membranes_.count + 1, coordinates_);
@@ -111,7 +112,8 @@ class FullSystem final : public LinearizedSystem {
     Kokkos::parallel_for("thixis::models::full_pattern", Kokkos::RangePolicy<Execution>(0, S.numRows()),
                          Pattern<decltype(row_map), decltype(entries)>{S, at, row_map, entries});
     // of ghosts, the multiplier stands in no row of this rank
-    return algebra::make_graph(map, algebra::interlaced(membranes_.matrix[0]->getColMap(), membranes_.count + 1, at.points), row_map, entries);
+    return algebra::make_graph(map, algebra::interlaced(membranes_.matrix[0]->getColMap(), membranes_.count + 1, at.points), row_map,
+                               entries);
   }
 
   const MembraneOperator& membranes_;

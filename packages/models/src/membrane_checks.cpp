@@ -45,8 +45,8 @@ std::string named(const scene::MembraneScene& scene, const char* letter, int alp
   return scene.count == 1 ? letter : letter + std::to_string(alpha + 1);
 }
 
-/// Throws where g1 < g2 (g < psi) on a held face, since no solution exists then, and where boundary data are not finite. Looks at the ends of
-/// the faces, and for degree >= 2 inside, too. Collective.
+/// Throws where g1 < g2 (g < psi) on a held face, since no solution exists then, and where boundary data are not finite. Looks at the ends
+/// of the faces, and for degree >= 2 inside, too. Collective.
 void check_boundary(const scene::MembraneScene& scene, const Boundary& boundary, const method::MethodParams& method,
                     const mesh::Mesh& mesh) {
   const std::vector<double> inside = reference::line_quadrature(method.order()).point;

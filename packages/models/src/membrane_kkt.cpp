@@ -97,12 +97,14 @@ complementarity::KktData kkt_data(const MembraneSolution& solution) {
   gap(membranes, x.u, *gap_l);
   data.gap = gap_l;
   data.claimed = Teuchos::rcp(new Vector(x.lambda, Teuchos::Copy));
-  data.between_nodes = scene.count == 1 ? space.penetration(u[0], scene.obstacle.get(), 0) : space.penetration(difference(u[0], u[1]), nullptr, 0);
+  data.between_nodes =
+      scene.count == 1 ? space.penetration(u[0], scene.obstacle.get(), 0) : space.penetration(difference(u[0], u[1]), nullptr, 0);
 
   const Extent domain = extent_of(space.mesh());
   const auto points = static_cast<double>(std::max<std::size_t>(membranes.points()->getGlobalNumElements(), 1));
   const double mean_pairing = membranes.points()->getGlobalNumElements() > 0 ? D.meanValue() : 1;
-  const double per_area = domain.area / points / mean_pairing;  // of X3: about 1 for nodal values, |K| over the points of a cell for moments
+  const double per_area =
+      domain.area / points / mean_pairing;  // of X3: about 1 for nodal values, |K| over the points of a cell for moments
   double size = 0;
   data.multiplier_scale = 0;
   for (int alpha = 0; alpha < scene.count; ++alpha) {
@@ -121,13 +123,14 @@ complementarity::KktData kkt_data(const MembraneSolution& solution) {
                   largest_tension(*scene.tension[alpha], space.mesh()) * height / (domain.width * domain.width) * per_area});
     size = std::max(size, height);
   }
-  Vector inverse(membranes.points());
-  inverse.reciprocal(D);
-  data.smallest_pairing = 1 / inverse.normInf();
   if (!(data.multiplier_scale > 0)) data.multiplier_scale = 1;
   // ... and a gap: the heights that are there, and what such a force opens at one point
   Vector s(membranes.points());
   problem.scaling(s);
+  Vector inverse_D(membranes.points()), inverse_s(membranes.points());
+  inverse_D.reciprocal(D);
+  inverse_s.reciprocal(s);
+  data.smallest_weight = 1 / std::max(inverse_D.normInf(), inverse_s.normInf());
   data.gap_scale = std::max(size, s.normInf() * data.multiplier_scale);
   if (!(data.gap_scale > 0)) data.gap_scale = 1;
   return data;

@@ -32,7 +32,8 @@ MembraneOperator membrane_operator(const scene::MembraneScene& scene, const meth
     membranes.factor[alpha] = *scene.tension[alpha]->constant();
     tension[alpha] = scene::constant(1);
   }
-  if (method.condensed() && space.interior() > 0) membranes.condensed = CellForms{space.elements(), space.interior(), space.symmetric(), {}};
+  if (method.condensed() && space.interior() > 0)
+    membranes.condensed = CellForms{space.elements(), space.interior(), space.symmetric(), {}};
   for (int alpha = 0; alpha < scene.count; ++alpha) {
     auto& condensed = membranes.condensed;
     if (constant && alpha > 0) {

@@ -19,8 +19,8 @@ struct CellForms {
 
 /// The linear part of a problem with m = 1 or 2 membranes, on one space with N unknowns, the first P on each rank being contact points:
 ///
-///     E_alpha(X) - F_alpha = S_alpha u_alpha - sigma_alpha D lambda - F_alpha,     S_alpha = factor_alpha · matrix_alpha,   sigma = (1, -1),
-///     K = u_1 - u_2, or u_1 - psi for m = 1.
+///     E_alpha(X) - F_alpha = S_alpha u_alpha - sigma_alpha D lambda - F_alpha,     S_alpha = factor_alpha · matrix_alpha,   sigma = (1,
+///     -1), K = u_1 - u_2, or u_1 - psi for m = 1.
 ///
 /// Where both tensions are constant, both matrices are one, that of the unit tension.
 struct MembraneOperator {
@@ -48,9 +48,7 @@ MembraneOperator membrane_operator(const scene::MembraneScene& scene, const meth
 struct Layout {
   int membranes;
   LocalIndex points;
-  KOKKOS_INLINE_FUNCTION LocalIndex operator()(LocalIndex l, int field) const {
-    return membranes * l + (l < points ? l : points) + field;
-  }
+  KOKKOS_INLINE_FUNCTION LocalIndex operator()(LocalIndex l, int field) const { return membranes * l + (l < points ? l : points) + field; }
 };
 Layout layout(const MembraneOperator& membranes);
 

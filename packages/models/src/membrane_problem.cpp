@@ -108,7 +108,8 @@ algebra::LinearReport MembraneProblem::solve(const Vector& R, Vector& dX, const 
 
 void MembraneProblem::relax(Vector& X, int sweeps) const {
   Fields x(membranes_, X);
-  projected_jacobi(membranes_, sweeps, x);
+  if (!smoother_) smoother_ = std::make_unique<ProjectedJacobi>(membranes_);
+  (*smoother_)(sweeps, x);
   join(x, X);
 }
 
@@ -142,7 +143,8 @@ double MembraneProblem::reference_norm() const {
 }
 
 GlobalIndex MembraneProblem::unknowns() const {
-  return static_cast<GlobalIndex>(membranes_.count * membranes_.map()->getGlobalNumElements() + membranes_.points()->getGlobalNumElements());
+  return static_cast<GlobalIndex>(membranes_.count * membranes_.map()->getGlobalNumElements() +
+                                  membranes_.points()->getGlobalNumElements());
 }
 GlobalIndex MembraneProblem::rows() const {
   if (params_.form == algebra::SystemForm::full && !membranes_.condensed) return unknowns();

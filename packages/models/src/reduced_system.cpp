@@ -92,8 +92,8 @@ class ReducedSystem : public LinearizedSystem {
     membranes_.matrix[1]->apply(x, y, Teuchos::NO_TRANS, f2, 1);
   }
 
-  /// Right-hand side of the z-rows, given coupling·dz of the known dz: -r_z - D C/b - known at free points, diag·dz at contact; -r_z - known
-  /// where there is no contact point.
+  /// Right-hand side of the z-rows, given coupling·dz of the known dz: -r_z - D C/b - known at free points, diag·dz at contact; -r_z -
+  /// known where there is no contact point.
   void right_side_z(const Vector& C, const Vector& r_z, const Vector& dz, const Vector& coupled, Vector& rhs) const {
     rhs.update(-1, r_z, -1, coupled, 0);
     const auto c = input(C), known = input(dz), D = input(*membranes_.pairing), b = input(b_), contact = input(contact_),
@@ -123,9 +123,8 @@ class ReducedSystem : public LinearizedSystem {
                  contact = input(contact_);
       const auto out = output(d.lambda);
       Kokkos::parallel_for(
-          "thixis::models::recover", Range(0, out.extent_int(0)), KOKKOS_LAMBDA(int l) {
-            out(l, 0) = contact(l, 0) > 0 ? pushed(l, 0) / D(l, 0) : -(c(l, 0) + a(l, 0) * gap(l, 0)) / b(l, 0);
-          });
+          "thixis::models::recover", Range(0, out.extent_int(0)),
+          KOKKOS_LAMBDA(int l) { out(l, 0) = contact(l, 0) > 0 ? pushed(l, 0) / D(l, 0) : -(c(l, 0) + a(l, 0) * gap(l, 0)) / b(l, 0); });
     }
     join(d, dX);
   }
@@ -139,8 +138,8 @@ class ReducedSystem : public LinearizedSystem {
   Vector a_, b_;
 };
 
-/// Constant tensions: (mu1 + mu2) S dw = -r_w once and for all, kappa S dz + … = …, kappa = mu1 mu2 / (mu1 + mu2). One membrane: dz alone, with
-/// kappa S its stiffness.
+/// Constant tensions: (mu1 + mu2) S dw = -r_w once and for all, kappa S dz + … = …, kappa = mu1 mu2 / (mu1 + mu2). One membrane: dz alone,
+/// with kappa S its stiffness.
 class DecoupledSystem final : public ReducedSystem {
  public:
   DecoupledSystem(const MembraneOperator& membranes, const algebra::LinearParams& params,
@@ -226,9 +225,8 @@ class CoupledSystem final : public ReducedSystem {
   CoupledSystem(const MembraneOperator& membranes, const algebra::LinearParams& params, const Teuchos::RCP<const MultiVector>& coordinates)
       : ReducedSystem(membranes), map_(algebra::interlaced(membranes.map(), 2)) {
     const double f1 = membranes.factor[0], f2 = membranes.factor[1], theta1 = membranes.theta[0], theta2 = membranes.theta[1];
-    const Blocks blocks = {2,
-                           {{{f1, f2}, {theta2 * f1, -theta1 * f2}},
-                            {{theta2 * f1, -theta1 * f2}, {theta2 * theta2 * f1, theta1 * theta1 * f2}}}};
+    const Blocks blocks = {
+        2, {{{f1, f2}, {theta2 * f1, -theta1 * f2}}, {{theta2 * f1, -theta1 * f2}, {theta2 * theta2 * f1, theta1 * theta1 * f2}}}};
     solver_ = make_constrained_solver(membranes, blocks, params, coordinates);
   }
   GlobalIndex nonzeros() const override { return solver_->nonzeros(); }

@@ -11,9 +11,9 @@ namespace thixis::models {
 ///
 ///     [ S1 + S2,  theta2 S1 - theta1 S2 ;  theta2 S1 - theta1 S2,  theta2² S1 + theta1² S2 + D a/b ] (dw, dz) = …
 ///
-/// With constant tensions the coupling vanishes: one Poisson problem for w, its solver set up once, and a scalar obstacle problem for z. One
-/// membrane over an obstacle is the latter alone: z = u, theta = (0, 1).
-/// Points with D a >= 1e10 diag b are in contact: dz = -C/a, and their multiplier follows from equilibrium.
+/// With constant tensions the coupling vanishes: one Poisson problem for w, its solver set up once, and a scalar obstacle problem for z.
+/// One membrane over an obstacle is the latter alone: z = u, theta = (0, 1). Points with D a >= 1e10 diag b are in contact: dz = -C/a, and
+/// their multiplier follows from equilibrium.
 ///
 /// Where the operator is condensed, so is each of these systems.
 std::unique_ptr<LinearizedSystem> make_reduced_system(const MembraneOperator& membranes, const algebra::LinearParams& params,
