@@ -2,6 +2,7 @@
 #include "registry.hpp"
 
 #include "thixis/core/error.hpp"
+#include "thixis/dg/space.hpp"
 #include "thixis/fem/lagrange_space.hpp"
 #include "thixis/models/membranes.hpp"
 #include "thixis/scene/membranes.hpp"
@@ -12,23 +13,32 @@ namespace {
 method::SpaceFactory make_method(const method::MethodParams& method) {
   switch (method.name) {
     case method::MethodName::fem:
-      if (method.degree != 1) throw core::InputError("method/degree: this version serves fem of degree 1 only; write 1.");
       return fem::make_lagrange_space;
+    case method::MethodName::dg:
+      return dg::make_space;
     default:
-      throw core::InputError("method/name: this version serves fem only; write fem.");
+      throw core::InputError("method/name: this version serves fem and dg; write one of them.");
   }
 }
 
-/// The expressions of newton/initial, null where none is given.
+/// The expressions of newton/initial for u_1 (u over an obstacle), u_2 and lambda, null where none is given.
 std::array<scene::FieldPtr, 3> initial_fields(const drive::RunParams& params) {
+  const auto& initial = params.newton.initial;
+  const bool one = params.scene.model == scene::Model::obstacle;
+  const auto refuse = [](const char* name, const std::optional<core::Formula>& formula, const char* sentence) {
+    if (formula) throw core::InputError(std::string("newton/initial/") + name + ": " + sentence);
+  };
+  for (const auto& [name, formula] : {std::pair("u1", initial.u1), std::pair("u2", initial.u2)})
+    if (one) refuse(name, formula, "there is one membrane; write u in its place.");
+  if (!one) refuse("u", initial.u, "there are two membranes; write u1 and u2 in its place.");
+
   const auto field = [&](const char* name, const std::optional<core::Formula>& formula) -> scene::FieldPtr {
     if (!formula) return nullptr;
     const auto& data = params.scene.data;
     return scene::expression(std::string("newton/initial/") + name, formula->text, data ? data->centre : std::vector<double>{0, 0},
                              data ? data->constants : std::map<std::string, double>{});
   };
-  const auto& initial = params.newton.initial;
-  return {field("u1", initial.u1), field("u2", initial.u2), field("lambda", initial.lambda)};
+  return {one ? field("u", initial.u) : field("u1", initial.u1), field("u2", initial.u2), field("lambda", initial.lambda)};
 }
 
 }  // namespace
@@ -37,9 +47,10 @@ std::unique_ptr<models::Model> make_model(const drive::RunParams& params) {
   const auto make_space = make_method(params.method);
   switch (params.scene.model) {
     case scene::Model::membranes:
+    case scene::Model::obstacle:
       return models::membranes(scene::membrane_scene(params.scene), make_space, params.method, params.linear, initial_fields(params));
     default:
-      throw core::InputError("scene/model: this version serves membranes only; write membranes.");
+      throw core::InputError("scene/model: this version serves membranes and obstacle only; write one of them.");
   }
 }
 

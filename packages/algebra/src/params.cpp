@@ -29,10 +29,6 @@ const core::Schema<LinearParams>& LinearParams::schema() {
           .check([](const P& p, core::Problems& problems) {
             if (p.solver == SolverKind::cg && p.preconditioner == PreconditionerKind::ilut)
               problems.add("preconditioner", "cg needs a symmetric preconditioner: write 'ilu' or 'muelu', or the solver 'gmres'.");
-            if (p.solver == SolverKind::cg && p.form == SystemForm::full)
-              problems.add("form", "the full system is not symmetric, so cg can not solve it: write 'reduced', or the solver 'gmres'.");
-            if (p.solver != SolverKind::direct && p.preconditioner == PreconditionerKind::muelu && p.form == SystemForm::full)
-              problems.add("form", "muelu fails on the full system: write 'reduced', or the preconditioner 'ilu'.");
           });
   return schema;
 }

@@ -138,9 +138,9 @@ class Run {
     if (report_.residuals.empty()) report_.residuals.push_back(before.residual);
     report_.residuals.push_back(now.residual);
     ++report_.steps;
+    changed_ = now.active.changed(before.active);
     if (observer_.step)
-      observer_.step({report_.steps, system_.linear_iterations() - iterations, now.active.count(), now.active.changed(before.active),
-                      now.residual, now.equations, now.complementarity, solver.getStepSize(), elapsed.count()});
+      observer_.step({report_.steps, system_.linear_iterations() - iterations, now.active.count(), changed_, now.residual, now.equations, now.complementarity, solver.getStepSize(), elapsed.count()});
     if (observer_.iterate) observer_.iterate(dynamic_cast<const NoxGroup&>(solver.getSolutionGroup()).X());
     return status;
   }
@@ -181,6 +181,7 @@ class Run {
     report_.residual_equations = last_.equations;
     report_.residual_complementarity = last_.complementarity;
     report_.active = last_.active.count();
+    report_.settled = !(report_.converged && params_.c_function == CFunction::min && changed_ > 0);
     report_.active_set = last_.active;
     return report_;
   }
@@ -210,6 +211,7 @@ class Run {
   NewtonReport report_;
   State last_;
   std::string why_;
+  long long changed_ = 0;  ///< contact points that the last step changed
   double fall_ = 0.1;
   int period_ = 0;
   bool goes_on_ = false;

@@ -42,6 +42,7 @@ Verdict judge(const RunParams& params, const Outcome& outcome, long long cells) 
   std::string sentence =
       fmt::format("solved in {} Newton step{} and {} Krylov iteration{}", outcome.at.newton_iterations,
                   outcome.at.newton_iterations == 1 ? "" : "s", outcome.at.linear_iterations, outcome.at.linear_iterations == 1 ? "" : "s");
+  if (!outcome.finest.settled) sentence += "; the contact set did not settle; ended by its residual";
   if (outcome.energy_error) sentence += fmt::format("; energy error {:.4e}", *outcome.energy_error);
   return {ExitCode::done, sentence + fmt::format("; contact conditions hold to {:.1e}.", outcome.kkt->worst())};
 }
@@ -179,10 +180,31 @@ void check_served(const RunParams& params) {
     mistakes.push_back("stopping/estimate: this" + no_estimate + "write false or leave it out.");
   if (params.stopping.target) mistakes.push_back("stopping/target: this" + no_estimate + "leave it out.");
   if (params.expect.effectivity_between) mistakes.push_back("expect/effectivity between: this" + no_estimate + "leave it out.");
-  if (params.linear.solver == algebra::SolverKind::cg && params.linear.form == algebra::SystemForm::full)
-    mistakes.push_back("linear/solver: the full system is not symmetric, so cg can not solve it; write form = reduced, or solver = gmres.");
-  if (params.linear.preconditioner == algebra::PreconditionerKind::muelu && params.linear.form == algebra::SystemForm::full)
-    mistakes.push_back("linear/preconditioner: muelu works on the reduced system only; write form = reduced, or preconditioner = ilu.");
+
+  const method::MethodParams& method = params.method;
+  const bool fem = method.name == method::MethodName::fem, dg = method.name == method::MethodName::dg;
+  const bool interior = method.name == method::MethodName::hho || (fem && method.degree >= 3);
+  if (method.condensation.value_or(false) && !interior)
+    mistakes.push_back(
+        fmt::format("method/condensation: {} of degree {} has no unknowns that belong to one cell alone; write false or leave it out.",
+                    method::to_text(method.name), method.degree));
+  if (params.newton.sweeps.value_or(0) > 0 && !method.symmetric())
+    mistakes.push_back("newton/sweeps: smoothing needs a symmetric form, which nipg is not; write 0, or method/variant = sipg.");
+
+  const algebra::LinearParams& linear = params.linear;
+  const bool cg = linear.solver == algebra::SolverKind::cg;
+  const bool muelu = linear.solver != algebra::SolverKind::direct && linear.preconditioner == algebra::PreconditionerKind::muelu;
+  const bool full = linear.form == algebra::SystemForm::full && !(method.condensed() && interior);
+  const bool nipg = dg && method.variant == method::Variant::nipg;
+  if (cg && full)
+    mistakes.push_back("linear/form: the full system is not symmetric, so cg can not solve it: write 'reduced', or the solver 'gmres'.");
+  if (muelu && full) mistakes.push_back("linear/form: muelu fails on the full system: write 'reduced', or the preconditioner 'ilu'.");
+  if (cg && nipg)
+    mistakes.push_back(
+        "linear/solver: conjugate gradients need a symmetric system, and that of nipg is not: write 'gmres', or the variant 'sipg'.");
+  if (muelu && nipg)
+    mistakes.push_back(
+        "linear/preconditioner: muelu needs a symmetric system, and that of nipg is not: write 'ilu', or the variant 'sipg'.");
   if (!mistakes.empty()) throw core::InputError(fmt::format("{}", fmt::join(mistakes, "\n")));
 }
 
@@ -220,7 +242,8 @@ ExitCode run(const RunParams& params, const models::Model& model, const core::De
   if (!outcome.not_wanted && !params.output.no_fields()) {
     const core::Region region("output");
     output::FieldWriter writer(directory.path(), comm);
-    writer.write(*outcome.mesh, outcome.discretization->fields(*outcome.X, outcome.finest.active_set, params.output.field_names()), 0);
+    writer.write(outcome.discretization->grid(),
+                 outcome.discretization->fields(*outcome.X, outcome.finest.active_set, params.output.field_names()), 0);
     writer.close();
   }
   const auto summary = summarize(params, model, outcome, verdict, *outcome.mesh, comm, clock.seconds(), versions);

@@ -19,16 +19,9 @@ KOKKOS_INLINE_FUNCTION void add(T& target, double value) {
   else target += value;
 }
 
-/// Position of `column` in the sorted columns [begin, end) of a row.
-template <class Columns>
-KOKKOS_INLINE_FUNCTION std::size_t position(const Columns& columns, std::size_t begin, std::size_t end, LocalIndex column) {
-  while (begin + 1 < end) {
-    const std::size_t middle = (begin + end) / 2;
-    (columns(middle) <= column ? begin : end) = middle;
-  }
-  return begin;
-}
+constexpr int most_unknowns = 64;  ///< of an element: 2 x 27 for two fields of the widest one
 
+/// Rows and the columns of an element are both sorted: one walk along the row finds them all.
 struct ScatterMatrix {
   ElementUnknowns elements;
   Kokkos::View<const double***, Kokkos::LayoutRight> local;
@@ -36,16 +29,36 @@ struct ScatterMatrix {
   LocalIndex first;
 
   KOKKOS_FUNCTION void operator()(int e) const {
-    const int n = local.extent_int(1);
-    for (int i = 0; i < n; ++i) {
+    int order[most_unknowns];
+    LocalIndex column[most_unknowns];
+    const int count = sorted(e, order, column);
+    for (int i = 0; i < local.extent_int(1); ++i) {
       const LocalIndex row = elements(first + e, i);
       if (row < 0 || row >= A.numRows()) continue;
-      const std::size_t begin = A.graph.row_map(row), end = A.graph.row_map(row + 1);
-      for (int j = 0; j < n; ++j) {
-        const LocalIndex column = elements(first + e, j);
-        if (column >= 0) add(A.values(position(A.graph.entries, begin, end, column)), local(e, i, j));
+      std::size_t at = A.graph.row_map(row);
+      for (int k = 0; k < count; ++k) {
+        while (A.graph.entries(at) < column[k]) ++at;
+        add(A.values(at), local(e, i, order[k]));
       }
     }
+  }
+
+ private:
+  /// The unknowns of the element by ascending column.
+  KOKKOS_FUNCTION int sorted(int e, int* order, LocalIndex* column) const {
+    int count = 0;
+    for (int j = 0; j < local.extent_int(2); ++j) {
+      const LocalIndex c = elements(first + e, j);
+      if (c < 0) continue;
+      int k = count++;
+      for (; k > 0 && column[k - 1] > c; --k) {
+        column[k] = column[k - 1];
+        order[k] = order[k - 1];
+      }
+      column[k] = c;
+      order[k] = j;
+    }
+    return count;
   }
 };
 
@@ -106,6 +119,7 @@ algebra::GraphPtr make_graph(const algebra::MapPtr& rows, const algebra::MapPtr&
 
 void scatter(const ElementUnknowns& elements, LocalIndex first, const Kokkos::View<const double***, Kokkos::LayoutRight>& local,
              algebra::Matrix& A) {
+  THIXIS_ASSERT(local.extent_int(2) <= most_unknowns, "elements are no wider");
   Kokkos::parallel_for("thixis::method::scatter_matrix", Kokkos::RangePolicy<Execution>(0, local.extent_int(0)),
                        ScatterMatrix{elements, local, A.getLocalMatrixDevice(), first});
 }

@@ -268,7 +268,8 @@ Coefficients PolynomialSpace::lift(const BoundaryValues& boundary, double t) con
       for (std::size_t i = 0; i < on.size(); ++i)
         for (const int m : on) coefficient[i] += basis_.from_values()[on[i] * n + m] * host(entries(k, m));
       for (std::size_t i = 0; i < on.size(); ++i)
-        if (basis_.entities()[on[i]].kind == reference::Entity::face) host(entries(k, on[i])) = coefficient[i];
+        if (basis_.entities()[on[i]].kind == reference::Entity::face && numbering_.held[entries(k, on[i])] == tag)
+          host(entries(k, on[i])) = coefficient[i];
     }
   }
   Kokkos::deep_copy(values, host);

@@ -6,36 +6,40 @@ namespace {
 using LocalMatrix = algebra::Matrix::local_matrix_device_type;
 using Execution = algebra::Matrix::execution_space;
 
-/// Where row (l, field) begins: S has row_map(l) entries before row l; u-rows hold those of S and two more, lambda-rows three.
+/// Where row (l, field) begins. Rows of u_alpha hold those of S, and at contact points the fields of the node; rows of lambda those only.
 template <class RowMap>
-KOKKOS_INLINE_FUNCTION std::size_t row_begin(const RowMap& row_map, LocalIndex l, int field) {
-  const std::size_t before = row_map(l), length = row_map(l + 1) - before;
-  return 2 * before + 7 * static_cast<std::size_t>(l) + field * (length + 2);
+KOKKOS_INLINE_FUNCTION std::size_t row_begin(const Layout& at, const RowMap& row_map, LocalIndex l, int field) {
+  const std::size_t before = row_map(l), length = row_map(l + 1) - before, m = at.membranes;
+  const std::size_t points_before = l < at.points ? l : at.points, more = l < at.points ? m : 0;
+  return m * before + (m * m + m + 1) * points_before + field * (length + more);
 }
 
 template <class RowMapOut, class EntriesOut>
 struct Pattern {
   LocalMatrix S;
-  LocalIndex rows;
+  Layout at;
   RowMapOut row_map;
   EntriesOut entries;
 
   KOKKOS_FUNCTION void operator()(LocalIndex l) const {
-    for (int field = 0; field < 3; ++field) {
-      std::size_t k = row_begin(S.graph.row_map, l, field);
-      row_map(3 * l + field) = k;
-      if (field == 2) {
-        for (int other = 0; other < 3; ++other) entries(k++) = 3 * l + other;
-        if (l + 1 == rows) row_map(3 * rows) = k;
+    const bool point = l < at.points;
+    const int m = at.membranes, fields = point ? m + 1 : m;
+    std::size_t k = 0;
+    for (int field = 0; field < fields; ++field) {
+      k = row_begin(at, S.graph.row_map, l, field);
+      row_map(at(l, field)) = k;
+      if (field == m) {
+        for (int other = 0; other < fields; ++other) entries(k++) = at(l, other);
         continue;
       }
       for (std::size_t e = S.graph.row_map(l); e < S.graph.row_map(l + 1); ++e) {
-        const LocalIndex m = S.graph.entries(e);
-        if (m == l)
-          for (int other = 0; other < 3; ++other) entries(k++) = 3 * l + other;
-        else entries(k++) = 3 * m + field;
+        const LocalIndex node = S.graph.entries(e);
+        if (node == l && point)
+          for (int other = 0; other < fields; ++other) entries(k++) = at(l, other);
+        else entries(k++) = at(node, field);
       }
     }
+    if (l + 1 == S.numRows()) row_map(at(l, fields)) = k;
   }
 };
 
@@ -43,27 +47,30 @@ template <class Values>
 struct Fill {
   LocalMatrix S[2];
   double factor[2];
+  Layout at;
   Values D, a, b;
   LocalMatrix A;  ///< out, overwritten
 
   KOKKOS_FUNCTION void operator()(LocalIndex l) const {
-    for (int field = 0; field < 2; ++field) {
-      std::size_t k = row_begin(S[0].graph.row_map, l, field);
-      for (std::size_t e = S[0].graph.row_map(l); e < S[0].graph.row_map(l + 1); ++e) {
+    const bool point = l < at.points;
+    const int m = at.membranes;
+    const auto& row_map = S[0].graph.row_map;
+    for (int field = 0; field < m; ++field) {
+      std::size_t k = row_begin(at, row_map, l, field);
+      for (std::size_t e = row_map(l); e < row_map(l + 1); ++e) {
         const double value = factor[field] * S[field].values(e);
-        if (S[0].graph.entries(e) == l) {
-          A.values(k++) = field == 0 ? value : 0;
-          A.values(k++) = field == 1 ? value : 0;
-          A.values(k++) = field == 0 ? -D(l, 0) : D(l, 0);
-        } else {
+        if (S[0].graph.entries(e) != l || !point) {
           A.values(k++) = value;
+          continue;
         }
+        for (int other = 0; other < m; ++other) A.values(k++) = other == field ? value : 0;
+        A.values(k++) = field == 0 ? -D(l, 0) : D(l, 0);
       }
     }
-    const std::size_t k = row_begin(S[0].graph.row_map, l, 2);
-    A.values(k) = a(l, 0);
-    A.values(k + 1) = -a(l, 0);
-    A.values(k + 2) = b(l, 0);
+    if (!point) return;
+    std::size_t k = row_begin(at, row_map, l, m);
+    for (int field = 0; field < m; ++field) A.values(k++) = field == 0 ? a(l, 0) : -a(l, 0);
+    A.values(k) = b(l, 0);
   }
 };
 
@@ -76,15 +83,13 @@ class FullSystem final : public LinearizedSystem {
   }
 
   void linearize(const algebra::Vector& a, const algebra::Vector& b) override {
-    const auto D = membranes_.pairing->getLocalViewDevice(Tpetra::Access::ReadOnly);
-    const Fill<decltype(D)> fill{{membranes_.matrix[0]->getLocalMatrixDevice(), membranes_.matrix[1]->getLocalMatrixDevice()},
-                                 {membranes_.factor[0], membranes_.factor[1]},
-                                 D,
-                                 a.getLocalViewDevice(Tpetra::Access::ReadOnly),
-                                 b.getLocalViewDevice(Tpetra::Access::ReadOnly),
-                                 A_->getLocalMatrixDevice()};
-    Kokkos::parallel_for("thixis::models::full_system", Kokkos::RangePolicy<Execution>(0, D.extent_int(0)), fill);
-    solver_.set_matrix(A_, 3, coordinates_);
+    const auto read = [](const algebra::Vector& v) { return v.getLocalViewDevice(Tpetra::Access::ReadOnly); };
+    const auto D = read(*membranes_.pairing);
+    Fill<decltype(D)> fill{
+        {}, {membranes_.factor[0], membranes_.factor[1]}, layout(membranes_), D, read(a), read(b), A_->getLocalMatrixDevice()};
+    for (int alpha = 0; alpha < membranes_.count; ++alpha) fill.S[alpha] = membranes_.matrix[alpha]->getLocalMatrixDevice();
+    Kokkos::parallel_for("thixis::models::full_system", Kokkos::RangePolicy<Execution>(0, fill.S[0].numRows()), fill);
+    solver_.set_matrix(A_, membranes_.count + 1, coordinates_);
   }
 
   algebra::LinearReport solve(const algebra::Vector& R, algebra::Vector& dX, const algebra::LinearStop& stop) override {
@@ -94,19 +99,21 @@ class FullSystem final : public LinearizedSystem {
     return solver_.solve(minus_R, dX, stop);
   }
 
-  GlobalIndex rows() const override { return A_->getGlobalNumRows(); }
   GlobalIndex nonzeros() const override { return A_->getGlobalNumEntries(); }
 
  private:
   algebra::GraphPtr make_graph(const algebra::MapPtr& map) const {
     const LocalMatrix S = membranes_.matrix[0]->getLocalMatrixDevice();
+    const Layout at = layout(membranes_);
     using LocalGraph = algebra::Graph::local_graph_device_type;
-    const LocalIndex rows = S.numRows();
-    LocalGraph::row_map_type::non_const_type row_map("thixis::models::row_map", 3 * static_cast<std::size_t>(rows) + 1);
-    LocalGraph::entries_type::non_const_type entries("thixis::models::entries", 2 * S.nnz() + 7 * static_cast<std::size_t>(rows));
-    Kokkos::parallel_for("thixis::models::full_pattern", Kokkos::RangePolicy<Execution>(0, rows),
-                         Pattern<decltype(row_map), decltype(entries)>{S, rows, row_map, entries});
-    return algebra::make_graph(map, algebra::interlaced(membranes_.matrix[0]->getColMap(), 3), row_map, entries);
+    const std::size_t m = at.membranes;
+    LocalGraph::row_map_type::non_const_type row_map("thixis::models::row_map", m * S.numRows() + at.points + 1);
+    LocalGraph::entries_type::non_const_type entries("thixis::models::entries", m * S.nnz() + (m * m + m + 1) * at.points);
+    Kokkos::parallel_for("thixis::models::full_pattern", Kokkos::RangePolicy<Execution>(0, S.numRows()),
+                         Pattern<decltype(row_map), decltype(entries)>{S, at, row_map, entries});
+    // of ghosts, the multiplier stands in no row of this rank
+    return algebra::make_graph(map, algebra::interlaced(membranes_.matrix[0]->getColMap(), membranes_.count + 1, at.points), row_map,
+                               entries);
   }
 
   const MembraneOperator& membranes_;

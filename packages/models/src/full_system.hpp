@@ -3,8 +3,8 @@
 
 namespace thixis::models {
 
-/// The three-field system (u1, u2, lambda) of every Newton step, interlaced with lambda last in the node: that order lets
-/// incomplete factorizations pass the zero diagonal of the contact rows.
+/// The system of all fields (u_1, …, u_m, lambda), interlaced with lambda last in the node: that order lets incomplete factorizations pass
+/// the zero diagonal of the contact rows.
 std::unique_ptr<LinearizedSystem> make_full_system(const MembraneOperator& membranes, const algebra::LinearParams& params,
                                                    const algebra::MapPtr& map, const Teuchos::RCP<const algebra::MultiVector>& coordinates);
 

@@ -40,26 +40,38 @@ PointList points_on(const mesh::Mesh& mesh, const mesh::HostMesh& host, std::siz
   return points;
 }
 
-/// Throws where g1 < g2 at an end of a held face (membranes that cross at their boundary have no solution), and where boundary data are not
-/// finite. Collective.
-void check_boundary(const scene::MembraneScene& scene, const Boundary& boundary, int order, const mesh::Mesh& mesh) {
-  const std::vector<double> ends = {0, 1}, inside = reference::line_quadrature(order).point;
+/// The deck's names of what belongs to membrane alpha: g1, g2; g over an obstacle.
+std::string named(const scene::MembraneScene& scene, const char* letter, int alpha) {
+  return scene.count == 1 ? letter : letter + std::to_string(alpha + 1);
+}
+
+/// Throws where g1 < g2 (g < psi) on a held face, since no solution exists then, and where boundary data are not finite. Looks at the ends
+/// of the faces, and for degree >= 2 inside, too. Collective.
+void check_boundary(const scene::MembraneScene& scene, const Boundary& boundary, const method::MethodParams& method,
+                    const mesh::Mesh& mesh) {
+  const std::vector<double> inside = reference::line_quadrature(method.order()).point;
+  std::vector<double> held = {0, 1};
+  if (method.degree > 1) held.insert(held.end(), inside.begin(), inside.end());
+  const bool one = scene.count == 1;
   mesh.comm.together([&] {
     const auto host = mesh::on_host(mesh);
     for (std::size_t tag = 0; tag < boundary.dirichlet.size(); ++tag) {
-      const PointList at = points_on(mesh, host, tag, boundary.dirichlet[tag] ? ends : inside);
+      const PointList at = points_on(mesh, host, tag, boundary.dirichlet[tag] ? held : inside);
       if (!boundary.dirichlet[tag]) {
-        for (const auto& values : boundary.values) at.evaluate(*values.neumann[tag]);
+        for (int alpha = 0; alpha < scene.count; ++alpha) at.evaluate(*boundary.values[alpha].neumann[tag]);
         continue;
       }
-      const auto upper = at.evaluate(*boundary.values[0].dirichlet[tag]), lower = at.evaluate(*boundary.values[1].dirichlet[tag]);
+      const auto upper = at.evaluate(*boundary.values[0].dirichlet[tag]),
+                 lower = at.evaluate(one ? *scene.obstacle : *boundary.values[1].dirichlet[tag]);
+      double size = 0;
+      for (std::size_t i = 0; i < upper.size(); ++i) size = std::max({size, std::abs(upper[i]), std::abs(lower[i])});
       for (std::size_t i = 0; i < upper.size(); ++i)
-        if (upper[i] < lower[i] - 1e-12 * (std::abs(upper[i]) + std::abs(lower[i])))
-          throw core::InputError(
-              fmt::format("{}: on the boundary '{}' the upper membrane lies below the lower one: g1 = {:.6g} < g2 = {:.6g} "
-                          "at ({:.6g}, {:.6g}); give boundary data with g1 >= g2.",
-                          scene.boundary.count(mesh.tags[tag]) > 0 ? "scene/boundary/" + mesh.tags[tag] : "scene/data/g1", mesh.tags[tag],
-                          upper[i], lower[i], at.x[i], at.y[i]));
+        if (upper[i] < lower[i] - 1e-12 * size)
+          throw core::InputError(fmt::format(
+              "{}: on the boundary '{}' {}: {} = {:.6g} < {} = {:.6g} at ({:.6g}, {:.6g}); give boundary data with {} >= {}.",
+              scene.boundary.count(mesh.tags[tag]) > 0 ? "scene/boundary/" + mesh.tags[tag] : "scene/data/" + named(scene, "g", 0),
+              mesh.tags[tag], one ? "the membrane lies below the obstacle" : "the upper membrane lies below the lower one",
+              named(scene, "g", 0), upper[i], one ? "psi" : "g2", lower[i], at.x[i], at.y[i], named(scene, "g", 0), one ? "psi" : "g2"));
     }
   });
 }
@@ -73,7 +85,8 @@ void check_data(const scene::MembraneScene& scene, const method::MethodParams& m
     const mesh::View<double*> values("thixis::models::data", quadrature.largest_block);
     const auto on_host = Kokkos::create_mirror_view(values);
     method::for_each_block(quadrature, [&](const method::QuadratureBlock& block) {
-      for (int alpha = 0; alpha < 2; ++alpha) {
+      if (scene.obstacle) method::evaluate(*scene.obstacle, 0, block, values);
+      for (int alpha = 0; alpha < scene.count; ++alpha) {
         method::evaluate(*scene.force[alpha], 0, block, values);
         if (scene.exact)
           for (const auto& known : {scene.exact->u[alpha], scene.exact->gradient[alpha][0], scene.exact->gradient[alpha][1]})
@@ -84,10 +97,10 @@ void check_data(const scene::MembraneScene& scene, const method::MethodParams& m
       }
     });
   });
-  for (int alpha = 0; alpha < 2; ++alpha)
+  for (int alpha = 0; alpha < scene.count; ++alpha)
     if (const double tension = mesh.comm.min(lowest[alpha]); !(tension > 0))
-      throw core::InputError(
-          fmt::format("scene/data/mu{}: the tension falls to {:.6g}; give one that is positive everywhere.", alpha + 1, tension));
+      throw core::InputError(fmt::format("scene/data/{}: the tension falls to {:.6g}; give one that is positive everywhere.",
+                                         named(scene, "mu", alpha), tension));
 }
 
 /// Throws where the functions that a cold start begins with are not finite. Collective.
@@ -101,8 +114,6 @@ void check_initial(const std::array<scene::FieldPtr, 3>& initial, const mesh::Me
       if (field) vertices.evaluate(*field);
   });
 }
-
-const char* const known_fields[] = {"u1", "u2", "lambda", "gap", "active"};
 
 }  // namespace
 
@@ -118,34 +129,38 @@ Boundary boundary_of(const scene::MembraneScene& scene, const mesh::Mesh& mesh) 
     const auto given = scene.boundary.find(tag);
     const auto& condition = given == scene.boundary.end() ? scene.default_boundary : given->second;
     const bool dirichlet = condition.kind == scene::BoundaryKind::dirichlet;
-    if (dirichlet && !(condition.value[0] && condition.value[1]))
-      throw core::InputError(
-          "scene/boundary/" + tag +
-          ": nothing is said about this part of the boundary; give g1 and g2 there, or g1 and g2 in scene/data for all of it.");
+    const bool known = condition.value[0] && (scene.count == 1 || condition.value[1]);
+    if (dirichlet && !known)
+      throw core::InputError(fmt::format(
+          "scene/boundary/{0}: nothing is said about this part of the boundary; give {1} there, or {1} in scene/data for all of it.", tag,
+          scene.count == 1 ? "g" : "g1 and g2"));
     boundary.dirichlet.push_back(dirichlet);
-    for (int alpha = 0; alpha < 2; ++alpha) {
+    for (int alpha = 0; alpha < scene.count; ++alpha) {
       boundary.values[alpha].dirichlet.push_back(dirichlet ? condition.value[alpha] : nullptr);
       boundary.values[alpha].neumann.push_back(dirichlet ? nullptr : condition.value[alpha]);
     }
   }
   if (std::find(boundary.dirichlet.begin(), boundary.dirichlet.end(), true) == boundary.dirichlet.end())
     throw core::InputError(
-        "scene/boundary: no part of the boundary has kind dirichlet, so the membranes are free to float away; fix at least one.");
+        fmt::format("scene/boundary: no part of the boundary has kind dirichlet, so the {} free to float away; fix at least one.",
+                    scene.count == 1 ? "membrane is" : "membranes are"));
   return boundary;
 }
 
 void check_functions(const scene::MembraneScene& scene, const std::array<scene::FieldPtr, 3>& initial, const method::MethodParams& method,
                      const mesh::Mesh& mesh) {
-  check_boundary(scene, boundary_of(scene, mesh), method.order(), mesh);
+  check_boundary(scene, boundary_of(scene, mesh), method, mesh);
   check_initial(initial, mesh);
   if (scene.name == "data") check_data(scene, method, mesh);
 }
 
-void check_field_names(const std::vector<std::string>& names) {
+void check_field_names(const scene::MembraneScene& scene, const std::vector<std::string>& names) {
+  std::vector<std::string> known = {"lambda", "gap", "active"};
+  for (int alpha = scene.count - 1; alpha >= 0; --alpha) known.insert(known.begin(), named(scene, "u", alpha));
   for (const auto& name : names)
-    if (std::find(std::begin(known_fields), std::end(known_fields), name) == std::end(known_fields))
+    if (std::find(known.begin(), known.end(), name) == known.end())
       throw core::InputError(
-          fmt::format("output/fields: there is no field '{}'; write all, none, or some of {}.", name, fmt::join(known_fields, ", ")));
+          fmt::format("output/fields: there is no field '{}'; write all, none, or some of {}.", name, fmt::join(known, ", ")));
 }
 
 }  // namespace thixis::models

@@ -19,12 +19,12 @@ struct Boundary {
 /// Throws for tags that the mesh does not have, tags without data, and where no part of the boundary is held.
 Boundary boundary_of(const scene::MembraneScene& scene, const mesh::Mesh& mesh);
 
-/// Throws where g1 < g2 at an end of a held face, where a tension is not positive, and where a function is not finite at a point where the
+/// Throws where g1 < g2 (g < psi) on a held face, where a tension is not positive, and where a function is not finite at a point where the
 /// run will ask for it. The functions of catalogued cases are known to be sound and not asked. Collective.
 void check_functions(const scene::MembraneScene& scene, const std::array<scene::FieldPtr, 3>& initial, const method::MethodParams& method,
                      const mesh::Mesh& mesh);
 
 /// Throws for names of fields that this model does not have.
-void check_field_names(const std::vector<std::string>& names);
+void check_field_names(const scene::MembraneScene& scene, const std::vector<std::string>& names);
 
 }  // namespace thixis::models

@@ -8,57 +8,96 @@
 #include "thixis/core/timer.hpp"
 
 namespace thixis::models {
+namespace {
 
 using algebra::MultiVector;
 using algebra::Vector;
+using Range = Kokkos::RangePolicy<Vector::execution_space>;
+
+/// Interior unknowns of all cells. Collective.
+GlobalIndex count_interior(const CellForms& forms, const algebra::Map& rows) {
+  const auto unknowns = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), forms.elements);
+  GlobalIndex count = 0;
+  for (std::size_t e = 0; e < unknowns.extent(0); ++e)
+    for (int i = 0; i < forms.interior; ++i) count += unknowns(e, i) >= 0 && unknowns(e, i) < algebra::local_size(rows);
+  return algebra::comm_of(rows).sum(count);
+}
+
+/// u_1 = u_2 at their mean, or u_1 = psi.
+struct CloseGap {
+  decltype(std::declval<MultiVector&>().getLocalViewDevice(Tpetra::Access::ReadWrite)) u;
+  decltype(std::declval<const Vector&>().getLocalViewDevice(Tpetra::Access::ReadOnly)) psi;
+  double theta1, theta2;
+
+  explicit CloseGap(const MembraneOperator& membranes, MultiVector& fields)
+      : u(fields.getLocalViewDevice(Tpetra::Access::ReadWrite)), theta1(membranes.theta[0]), theta2(membranes.theta[1]) {
+    if (membranes.count == 1) psi = membranes.obstacle->getLocalViewDevice(Tpetra::Access::ReadOnly);
+  }
+  KOKKOS_FUNCTION double gap(int l) const { return u.extent(1) == 1 ? u(l, 0) - psi(l, 0) : u(l, 0) - u(l, 1); }
+  KOKKOS_FUNCTION void operator()(int l) const {
+    if (u.extent(1) == 1) u(l, 0) = psi(l, 0);
+    else u(l, 0) = u(l, 1) = theta1 * u(l, 0) + theta2 * u(l, 1);
+  }
+};
+
+}  // namespace
 
 MembraneProblem::MembraneProblem(MembraneOperator membranes, const algebra::LinearParams& params,
                                  const Teuchos::RCP<const MultiVector>& coordinates)
-    : membranes_(std::move(membranes)), params_(params), coordinates_(coordinates), map_(algebra::interlaced(membranes_.map(), 3)) {}
+    : membranes_(std::move(membranes)), params_(params), coordinates_(coordinates), map_(membranes_.interlaced()) {
+  if (membranes_.condensed) interior_ = count_interior(*membranes_.condensed, *membranes_.map());
+}
 
 void MembraneProblem::equations(const Vector& X, Vector& R) const {
-  MultiVector x(membranes_.map(), 3), r(membranes_.map(), 3);
-  split(X, x);
-  r.getVectorNonConst(2)->putScalar(0);
-  for (int alpha = 0; alpha < 2; ++alpha) {
-    const auto row = r.getVectorNonConst(alpha);
-    membranes_.matrix[alpha]->apply(*x.getVector(alpha), *row, Teuchos::NO_TRANS, membranes_.factor[alpha], 0);
-    row->elementWiseMultiply(alpha == 0 ? -1 : 1, *membranes_.pairing, *x.getVector(2), 1);
+  const Fields x(membranes_, X);
+  Fields r(membranes_);
+  for (int alpha = 0; alpha < membranes_.count; ++alpha) {
+    const auto row = r.u.getVectorNonConst(alpha);
+    membranes_.matrix[alpha]->apply(*x.u.getVector(alpha), *row, Teuchos::NO_TRANS, membranes_.factor[alpha], 0);
     row->update(-1, *membranes_.load[alpha], 1);
+    const double sigma = alpha == 0 ? 1 : -1;
+    const auto D = membranes_.pairing->getLocalViewDevice(Tpetra::Access::ReadOnly);
+    const auto lambda = x.lambda.getLocalViewDevice(Tpetra::Access::ReadOnly);
+    const auto out = row->getLocalViewDevice(Tpetra::Access::ReadWrite);
+    Kokkos::parallel_for(
+        "thixis::models::pressure", Range(0, lambda.extent_int(0)), KOKKOS_LAMBDA(int l) { out(l, 0) -= sigma * D(l, 0) * lambda(l, 0); });
   }
   join(r, R);
 }
 
 void MembraneProblem::arguments(const Vector& X, Vector& K, Vector& G) const {
-  MultiVector x(membranes_.map(), 3);
-  split(X, x);
-  K.update(1, *x.getVector(0), -1, *x.getVector(1), 0);
-  G.assign(*x.getVector(2));
+  const Fields x(membranes_, X);
+  gap(membranes_, x.u, K);
+  G.assign(x.lambda);
 }
 
 void MembraneProblem::scaling(Vector& s) const {
-  Vector diagonal(membranes_.map()), inverse(membranes_.map());
+  Vector diagonal(membranes_.map());
   s.putScalar(0);
-  for (int alpha = 0; alpha < 2; ++alpha) {
+  for (int alpha = 0; alpha < membranes_.count; ++alpha) {
     membranes_.matrix[alpha]->getLocalDiagCopy(diagonal);
-    inverse.reciprocal(diagonal);
-    s.elementWiseMultiply(1 / membranes_.factor[alpha], *membranes_.pairing, inverse, 1);
+    const double factor = membranes_.factor[alpha];
+    const auto S = std::as_const(diagonal).getLocalViewDevice(Tpetra::Access::ReadOnly);
+    const auto D = membranes_.pairing->getLocalViewDevice(Tpetra::Access::ReadOnly);
+    const auto out = s.getLocalViewDevice(Tpetra::Access::ReadWrite);
+    Kokkos::parallel_for(
+        "thixis::models::scaling", Range(0, out.extent_int(0)), KOKKOS_LAMBDA(int l) { out(l, 0) += D(l, 0) / (factor * S(l, 0)); });
   }
 }
 
 void MembraneProblem::insert(const Vector& C, Vector& R) const {
+  const Layout at = layout(membranes_);
   const auto c = C.getLocalViewDevice(Tpetra::Access::ReadOnly);
   const auto r = R.getLocalViewDevice(Tpetra::Access::ReadWrite);
   Kokkos::parallel_for(
-      "thixis::models::insert", Kokkos::RangePolicy<Vector::execution_space>(0, c.extent_int(0)),
-      KOKKOS_LAMBDA(int l) { r(3 * l + 2, 0) = c(l, 0); });
+      "thixis::models::insert", Range(0, c.extent_int(0)), KOKKOS_LAMBDA(int l) { r(at(l, at.membranes), 0) = c(l, 0); });
 }
 
 void MembraneProblem::linearize(const Vector&, const Vector& a, const Vector& b) {
   if (!system_) {
     const core::Region region("assembly");
-    system_ = params_.form == algebra::SystemForm::full ? make_full_system(membranes_, params_, map_, coordinates_)
-                                                        : make_reduced_system(membranes_, params_, coordinates_);
+    const bool full = params_.form == algebra::SystemForm::full && !membranes_.condensed;
+    system_ = full ? make_full_system(membranes_, params_, map_, coordinates_) : make_reduced_system(membranes_, params_, coordinates_);
   }
   system_->linearize(a, b);
 }
@@ -68,38 +107,48 @@ algebra::LinearReport MembraneProblem::solve(const Vector& R, Vector& dX, const 
 }
 
 void MembraneProblem::relax(Vector& X, int sweeps) const {
-  MultiVector x(membranes_.map(), 3);
-  split(X, x);
-  projected_jacobi(membranes_, sweeps, x);
+  Fields x(membranes_, X);
+  if (!smoother_) smoother_ = std::make_unique<ProjectedJacobi>(membranes_);
+  (*smoother_)(sweeps, x);
   join(x, X);
 }
 
-void MembraneProblem::settle(MultiVector& x) const {
-  Vector scale(membranes_.map());
+void MembraneProblem::settle(Fields& x) const {
+  Vector scale(membranes_.points());
   scaling(scale);
-  const auto s = scale.getLocalViewDevice(Tpetra::Access::ReadOnly);
-  const auto fields = x.getLocalViewDevice(Tpetra::Access::ReadWrite);
-  const double theta1 = membranes_.theta[0], theta2 = membranes_.theta[1];
+  const auto s = std::as_const(scale).getLocalViewDevice(Tpetra::Access::ReadOnly);
+  const auto lambda = x.lambda.getLocalViewDevice(Tpetra::Access::ReadWrite);
+  const CloseGap close(membranes_, x.u);
   Kokkos::parallel_for(
-      "thixis::models::settle", Kokkos::RangePolicy<Vector::execution_space>(0, fields.extent_int(0)), KOKKOS_LAMBDA(int l) {
-        if (fields(l, 0) - fields(l, 1) > s(l, 0) * fields(l, 2)) fields(l, 2) = 0;
-        else fields(l, 0) = fields(l, 1) = theta1 * fields(l, 0) + theta2 * fields(l, 1);
+      "thixis::models::settle", Range(0, lambda.extent_int(0)), KOKKOS_LAMBDA(int l) {
+        if (close.gap(l) > s(l, 0) * lambda(l, 0)) lambda(l, 0) = 0;
+        else close(l);
       });
 }
 
-void MembraneProblem::make_complementary(MultiVector& x) const {
-  const auto fields = x.getLocalViewDevice(Tpetra::Access::ReadWrite);
-  const double theta1 = membranes_.theta[0], theta2 = membranes_.theta[1];
+void MembraneProblem::make_complementary(Fields& x) const {
+  const auto lambda = std::as_const(x.lambda).getLocalViewDevice(Tpetra::Access::ReadOnly);
+  const CloseGap close(membranes_, x.u);
   Kokkos::parallel_for(
-      "thixis::models::make_complementary", Kokkos::RangePolicy<Vector::execution_space>(0, fields.extent_int(0)), KOKKOS_LAMBDA(int l) {
-        if (fields(l, 2) > 0) fields(l, 0) = fields(l, 1) = theta1 * fields(l, 0) + theta2 * fields(l, 1);
+      "thixis::models::make_complementary", Range(0, lambda.extent_int(0)), KOKKOS_LAMBDA(int l) {
+        if (lambda(l, 0) > 0) close(l);
       });
 }
 
-double MembraneProblem::reference_norm() const { return std::hypot(membranes_.load[0]->norm2(), membranes_.load[1]->norm2()); }
+double MembraneProblem::reference_norm() const {
+  if (membranes_.count == 2) return std::hypot(membranes_.load[0]->norm2(), membranes_.load[1]->norm2());
+  Vector data(*membranes_.load[0], Teuchos::Copy);
+  membranes_.matrix[0]->apply(*membranes_.obstacle, data, Teuchos::NO_TRANS, -membranes_.factor[0], 1);
+  return data.norm2();
+}
 
+GlobalIndex MembraneProblem::unknowns() const {
+  return static_cast<GlobalIndex>(membranes_.count * membranes_.map()->getGlobalNumElements() +
+                                  membranes_.points()->getGlobalNumElements());
+}
 GlobalIndex MembraneProblem::rows() const {
-  return (params_.form == algebra::SystemForm::full ? 3 : 2) * static_cast<GlobalIndex>(membranes_.map()->getGlobalNumElements());
+  if (params_.form == algebra::SystemForm::full && !membranes_.condensed) return unknowns();
+  return membranes_.count * (static_cast<GlobalIndex>(membranes_.map()->getGlobalNumElements()) - interior_);
 }
 GlobalIndex MembraneProblem::nonzeros() const { return system_ ? system_->nonzeros() : 0; }
 

@@ -6,19 +6,16 @@
 #include <cmath>
 
 #include "membrane_checks.hpp"
+#include "membrane_kkt.hpp"
 #include "membrane_problem.hpp"
 #include "thixis/core/error.hpp"
 #include "thixis/core/timer.hpp"
-#include "thixis/mesh/host.hpp"
 
 namespace thixis::models {
 namespace {
 
-using algebra::MultiVector;
 using algebra::Vector;
 using method::Coefficients;
-
-const char* const unknown_fields[] = {"u1", "u2", "lambda"};
 
 void check_size(const output::StoredCheckpoint& stored, const std::string& block, GlobalIndex unknowns) {
   const GlobalIndex saved = stored.size(block);
@@ -29,213 +26,156 @@ void check_size(const output::StoredCheckpoint& stored, const std::string& block
                   stored.path(), saved < 0 ? fmt::format("no '{}'", block) : fmt::format("{} values of '{}'", saved, block), unknowns));
 }
 
-/// Diagonal of the box around the mesh. Collective.
-double diameter(const mesh::Mesh& mesh) {
-  const auto x = mesh::on_host(mesh).coordinates;
-  double box[4] = {-1e300, -1e300, -1e300, -1e300};  // -lower, upper
-  for (LocalIndex v = 0; v < mesh.vertices; ++v)
-    for (int d = 0; d < 2; ++d) {
-      box[d] = std::max(box[d], -x(v, d));
-      box[2 + d] = std::max(box[2 + d], x(v, d));
-    }
-  for (double& side : box) side = mesh.comm.max(side);
-  return std::hypot(box[2] + box[0], box[3] + box[1]);
-}
-
-/// Largest absolute value. Collective.
-double largest(const Coefficients& u, const core::Comm& comm) {
-  const auto host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), u);
-  double value = 0;
-  for (std::size_t i = 0; i < host.extent(0); ++i) value = std::max(value, std::abs(host(i)));
-  return comm.max(value);
+/// Brings coefficients together where those of the upper membrane are below those of the lower one: the first `count` of them.
+void keep_in_order(const Coefficients& upper, const Coefficients& lower, std::size_t count) {
+  Kokkos::parallel_for(
+      "thixis::models::keep_in_order", Kokkos::RangePolicy<>(0, count), KOKKOS_LAMBDA(std::size_t i) {
+        if (upper(i) < lower(i)) upper(i) = lower(i) = 0.5 * (upper(i) + lower(i));
+      });
 }
 
 class MembraneDiscretization final : public Discretization {
  public:
   MembraneDiscretization(const scene::MembraneScene& scene, const method::SpaceFactory& make_space, const method::MethodParams& method,
                          const algebra::LinearParams& linear, const std::array<scene::FieldPtr, 3>& initial, const mesh::Mesh& mesh)
-      : scene_(scene), initial_(initial), boundary_(boundary_of(scene, mesh)) {
+      : scene_(scene), initial_(initial) {
     const core::Region region("assembly");
-    space_ = make_space(mesh, {boundary_.dirichlet, scene.interface_level_set, method});
-    for (int alpha = 0; alpha < 2; ++alpha) {
-      lift_[alpha] = space_->lift(boundary_.values[alpha], 0);
+    const Boundary boundary = boundary_of(scene, mesh);
+    space_ = make_space(mesh, {boundary.dirichlet, scene.interface_level_set, method});
+    for (int alpha = 0; alpha < scene.count; ++alpha) {
+      lift_[alpha] = space_->lift(boundary.values[alpha], 0);
       body_[alpha] = Teuchos::rcp(new Vector(space_->map()));
-      space_->load(*scene_.force[alpha], boundary_.values[alpha], 0, *body_[alpha]);
+      space_->load(*scene.tension[alpha], *scene.force[alpha], boundary.values[alpha], 0, *body_[alpha]);
     }
-    problem_ = std::make_unique<MembraneProblem>(make_operator(), linear, space_->coordinates());
+    nothing_ = Coefficients("thixis::models::nothing", lift_[0].extent(0));
+    // Bernstein coefficients of ordered data need not be ordered
+    if (method.nodes == method::Nodes::bernstein && scene.count == 2)
+      keep_in_order(lift_[0], lift_[1], space_->coefficients_shown(lift_[0]).size());
+    problem_ = std::make_unique<MembraneProblem>(membrane_operator(scene, *space_, method, lift_, body_), linear, space_->coordinates());
   }
 
   complementarity::Problem& problem() override { return *problem_; }
 
-  Sizes sizes() const override {
-    return {3 * static_cast<GlobalIndex>(space_->map()->getGlobalNumElements()), problem_->rows(), problem_->nonzeros()};
-  }
+  Sizes sizes() const override { return {problem_->unknowns(), problem_->rows(), problem_->nonzeros()}; }
 
   Teuchos::RCP<Vector> cold_start() const override {
-    MultiVector x(space_->map(), 3);
-    for (int field = 0; field < 3; ++field)
-      if (initial_[field]) space_->interpolate(*initial_[field], 0, *x.getVectorNonConst(field));
+    Fields x = fields();
+    for (int alpha = 0; alpha < scene_.count; ++alpha)
+      if (initial_[alpha]) space_->interpolate(*initial_[alpha], 0, *x.u.getVectorNonConst(alpha));
+    if (initial_[2]) space_->interpolate_multiplier(*initial_[2], 0, x.lambda);
     return joined(x);
   }
 
   Teuchos::RCP<Vector> nested_start(const Discretization& coarse_level, const Vector& coarse_X) const override {
     const auto& coarse = dynamic_cast<const MembraneDiscretization&>(coarse_level);
-    MultiVector coarse_x(coarse.space_->map(), 3), x(space_->map(), 3);
-    split(coarse_X, coarse_x);
+    Fields coarse_x = coarse.fields(coarse_X), x = fields();
     coarse.problem_->settle(coarse_x);
-    for (int field = 0; field < 3; ++field) {
-      const auto u = coarse.space_->complete(*coarse_x.getVector(field), field < 2 ? coarse.lift_[field] : coarse.nothing());
-      space_->prolongate(*coarse.space_, u, *x.getVectorNonConst(field));
-    }
-    problem_->make_complementary(x);
+    for (int alpha = 0; alpha < scene_.count; ++alpha)
+      space_->prolongate(*coarse.space_, coarse.space_->complete(*coarse_x.u.getVector(alpha), coarse.lift_[alpha]),
+                         *x.u.getVectorNonConst(alpha));
+    space_->prolongate_multiplier(*coarse.space_, coarse_x.lambda, x.lambda);
+    // moments come with noise of both signs
+    if (space_->nodal_multiplier()) problem_->make_complementary(x);
     return joined(x);
   }
 
   std::vector<output::CheckpointBlock> save(const Vector& X) const override {
-    MultiVector x(space_->map(), 3);
-    split(X, x);
-    const auto ids = space_->unknown_ids();
+    const Fields x = fields(X);
     std::vector<output::CheckpointBlock> blocks;
-    for (int field = 0; field < 3; ++field) {
-      const auto column = x.getVector(field);
-      const auto values = algebra::host_view(*column);
-      blocks.push_back({unknown_fields[field], ids, {values.data(), values.data() + values.extent(0)}});
-    }
+    const auto ids = space_->unknown_ids();
+    const auto add = [&](const std::string& name, const Vector& v) {
+      const auto values = algebra::host_view(v);
+      const auto count = static_cast<std::ptrdiff_t>(values.extent(0));
+      blocks.push_back({name, {ids.begin(), ids.begin() + count}, {values.data(), values.data() + count}});
+    };
+    for (int alpha = 0; alpha < scene_.count; ++alpha) add(displacement(alpha), *x.u.getVector(alpha));
+    add("lambda", x.lambda);
     return blocks;
   }
 
   Teuchos::RCP<Vector> restore(const output::StoredCheckpoint& stored) const override {
-    const auto unknowns = static_cast<GlobalIndex>(space_->map()->getGlobalNumElements());
+    Fields x = fields();
     const auto ids = space_->unknown_ids();
-    MultiVector x(space_->map(), 3);
-    for (int field = 0; field < 3; ++field) {
-      check_size(stored, unknown_fields[field], unknowns);
-      const auto values = stored.fetch(unknown_fields[field], ids);
-      const auto column = x.getVectorNonConst(field);
-      const auto out = algebra::host_overwrite(*column);
+    const auto fetch = [&](const std::string& name, Vector& v) {
+      check_size(stored, name, static_cast<GlobalIndex>(v.getGlobalLength()));
+      const auto values = stored.fetch(name, {ids.begin(), ids.begin() + static_cast<std::ptrdiff_t>(v.getLocalLength())});
+      const auto out = algebra::host_overwrite(v);
       std::copy(values.begin(), values.end(), out.data());
-    }
+    };
+    for (int alpha = 0; alpha < scene_.count; ++alpha) fetch(displacement(alpha), *x.u.getVectorNonConst(alpha));
+    fetch("lambda", x.lambda);
     return joined(x);
   }
 
   std::optional<double> energy_error(const Vector& X) const override {
     if (!scene_.exact) return std::nullopt;
+    const Fields x = fields(X);
     double sum = 0;
-    for (int alpha = 0; alpha < 2; ++alpha)
-      sum += space_->energy_error(*scene_.tension[alpha], membrane(X, alpha), scene_.exact->gradient[alpha], 0);
+    for (int alpha = 0; alpha < scene_.count; ++alpha)
+      sum += space_->energy_error(*scene_.tension[alpha], membrane(x, alpha), scene_.exact->gradient[alpha], 0);
     return std::sqrt(sum);
   }
 
   double energy_norm(const Vector& X) const override {
+    const Fields x = fields(X);
     double sum = 0;
-    for (int alpha = 0; alpha < 2; ++alpha) sum += space_->energy(*scene_.tension[alpha], membrane(X, alpha));
+    for (int alpha = 0; alpha < scene_.count; ++alpha) sum += space_->energy(*scene_.tension[alpha], membrane(x, alpha));
     return std::sqrt(sum);
   }
 
   complementarity::KktData kkt_data(const Vector& X) const override {
-    complementarity::KktData data;
-    MultiVector x(space_->map(), 3);
-    split(X, x);
-    auto gap = Teuchos::rcp(new Vector(space_->map()));
-    gap->update(1, *x.getVector(0), -1, *x.getVector(1), 0);
-    data.gap = gap;
-    data.claimed = Teuchos::rcp(new Vector(*x.getVector(2), Teuchos::Copy));
-    Vector inverse(space_->map());
-    inverse.reciprocal(space_->pairing());
-    const double width = diameter(space_->mesh());
-    double size = 0;
-    data.multiplier_scale = 0;
-    for (int alpha = 0; alpha < 2; ++alpha) {
-      // lambda_1 = (a(u1, psi) - F1) / D,  lambda_2 = (F2 - a(u2, psi)) / D
-      Vector defect(space_->map());
-      space_->forces(*scene_.tension[alpha], membrane(X, alpha), defect);
-      const double sign = alpha == 0 ? 1 : -1;
-      defect.update(-sign, *body_[alpha], sign);
-      auto multiplier = Teuchos::rcp(new Vector(space_->map()));
-      multiplier->elementWiseMultiply(1, inverse, defect, 0);
-      data.equilibrium.push_back(multiplier);
-      // what is large: the force per area that is there, and the one that bends the membrane over the width of the domain
-      const double height = std::max(x.getVector(alpha)->normInf(), largest(lift_[alpha], space_->mesh().comm));
-      defect.elementWiseMultiply(1, inverse, *body_[alpha], 0);
-      data.multiplier_scale = std::max(
-          {data.multiplier_scale, multiplier->normInf(), defect.normInf(), problem_->mean_tension(alpha) * height / (width * width)});
-      size = std::max(size, height);
-    }
-    data.smallest_pairing = 1 / inverse.normInf();
-    if (!(data.multiplier_scale > 0)) data.multiplier_scale = 1;
-    // ... and a gap: the heights that are there, and what such a force opens at one point
-    Vector s(space_->map());
-    problem_->scaling(s);
-    data.gap_scale = std::max(size, s.normInf() * data.multiplier_scale);
-    if (!(data.gap_scale > 0)) data.gap_scale = 1;
-    return data;
+    MembraneSolution solution{scene_, *space_, *problem_, body_, fields(X), {}};
+    for (int alpha = 0; alpha < scene_.count; ++alpha) solution.u[alpha] = membrane(solution.x, alpha);
+    return models::kkt_data(solution);
   }
+
+  output::Grid grid() const override { return space_->display(); }
 
   std::vector<output::FieldData> fields(const Vector& X, const complementarity::ActiveSet& active,
                                         const std::vector<std::string>& names) const override {
-    std::vector<output::FieldData> fields;
-    const auto add = [&](const char* name, auto values) {
+    const Fields x = fields(X);
+    std::vector<output::FieldData> shown;
+    const auto add = [&](const std::string& name, auto values) {
       if (names.empty() || std::find(names.begin(), names.end(), name) != names.end())
-        fields.push_back({name, output::Centre::vertex, values()});
+        shown.push_back({name, output::Centre::vertex, values()});
     };
-    MultiVector x(space_->map(), 3);
-    split(X, x);
-    const auto difference = [&] {
-      auto gap = space_->at_vertices(membrane(X, 0));
-      const auto lower = space_->at_vertices(membrane(X, 1));
-      for (std::size_t v = 0; v < gap.size(); ++v) gap[v] -= lower[v];
+    for (int alpha = 0; alpha < scene_.count; ++alpha) add(displacement(alpha), [&] { return space_->shown(membrane(x, alpha)); });
+    add("lambda", [&] { return space_->shown(space_->multiplier(x.lambda)); });
+    add("gap", [&] {
+      auto gap = space_->shown(membrane(x, 0));
+      const auto below = scene_.count == 2 ? space_->shown(membrane(x, 1)) : obstacle_shown();
+      for (std::size_t i = 0; i < gap.size(); ++i) gap[i] -= below[i];
       return gap;
-    };
-    const auto flags = [&] {
+    });
+    add("active", [&] {
       Vector flag(space_->map());
-      const auto out = algebra::host_overwrite(flag);
-      for (std::size_t l = 0; l < active.flags().size(); ++l) out(l) = active.flags()[l];
-      return flag;
-    };
-    add("u1", [&] { return space_->at_vertices(membrane(X, 0)); });
-    add("u2", [&] { return space_->at_vertices(membrane(X, 1)); });
-    add("lambda", [&] { return space_->at_vertices(space_->complete(*x.getVector(2), nothing())); });
-    add("gap", difference);
-    add("active", [&] { return space_->at_vertices(space_->complete(flags(), nothing())); });
-    return fields;
+      {
+        const auto out = algebra::host_view(flag);
+        for (std::size_t l = 0; l < active.flags().size(); ++l) out(l) = active.flags()[l];
+      }
+      return space_->coefficients_shown(space_->complete(flag, nothing_));
+    });
+    return shown;
   }
 
  private:
-  MembraneOperator make_operator() const {
-    MembraneOperator membranes;
-    membranes.pairing = Teuchos::rcpFromRef(space_->pairing());
-    const double* constant[2] = {scene_.tension[0]->constant(), scene_.tension[1]->constant()};
-    if (constant[0] && constant[1]) {
-      membranes.matrix[0] = membranes.matrix[1] = space_->stiffness(*scene::constant(1));
-      membranes.factor = {*constant[0], *constant[1]};
-    } else {
-      for (int alpha = 0; alpha < 2; ++alpha) membranes.matrix[alpha] = space_->stiffness(*scene_.tension[alpha]);
+  std::string displacement(int alpha) const { return scene_.count == 1 ? "u" : alpha == 0 ? "u1" : "u2"; }
+  Fields fields() const { return Fields(problem_->membranes()); }
+  Fields fields(const Vector& X) const { return Fields(problem_->membranes(), X); }
+  Coefficients membrane(const Fields& x, int alpha) const { return space_->complete(*x.u.getVector(alpha), lift_[alpha]); }
+
+  std::vector<double> obstacle_shown() const {
+    const auto points = space_->display().points;
+    std::vector<double> x, y, values(points.size());
+    for (const auto& point : points) {
+      x.push_back(point[0]);
+      y.push_back(point[1]);
     }
-    for (int alpha = 0; alpha < 2; ++alpha) {
-      // what the Dirichlet data exert on the unknowns moves to the right
-      Vector held(space_->map());
-      space_->forces(*scene_.tension[alpha], lift_[alpha], held);
-      membranes.load[alpha] = Teuchos::rcp(new Vector(*body_[alpha], Teuchos::Copy));
-      membranes.load[alpha]->update(-1, held, 1);
-      Vector diagonal(space_->map());
-      membranes.matrix[alpha]->getLocalDiagCopy(diagonal);
-      membranes.tension[alpha] = membranes.factor[alpha] * diagonal.meanValue();
-    }
-    if (space_->map()->getGlobalNumElements() > 0)
-      for (int alpha = 0; alpha < 2; ++alpha)
-        membranes.theta[alpha] = membranes.tension[alpha] / (membranes.tension[0] + membranes.tension[1]);
-    return membranes;
+    space_->mesh().comm.together([&] { scene_.obstacle->evaluate({points.size(), x.data(), y.data()}, 0, values.data()); });
+    return values;
   }
 
-  Coefficients membrane(const Vector& X, int alpha) const {
-    MultiVector x(space_->map(), 3);
-    split(X, x);
-    return space_->complete(*x.getVector(alpha), lift_[alpha]);
-  }
-  /// The multiplier has no boundary values.
-  Coefficients nothing() const { return Coefficients("thixis::models::nothing", lift_[0].extent(0)); }
-
-  Teuchos::RCP<Vector> joined(const MultiVector& x) const {
+  Teuchos::RCP<Vector> joined(const Fields& x) const {
     auto X = Teuchos::rcp(new Vector(problem_->map()));
     join(x, *X);
     return X;
@@ -243,10 +183,10 @@ class MembraneDiscretization final : public Discretization {
 
   const scene::MembraneScene& scene_;
   const std::array<scene::FieldPtr, 3>& initial_;
-  Boundary boundary_;
   std::unique_ptr<method::Space> space_;
+  Coefficients nothing_;  ///< no boundary values
   Coefficients lift_[2];
-  Teuchos::RCP<Vector> body_[2];  ///< (f_alpha, psi_l) + Neumann data
+  Teuchos::RCP<Vector> body_[2];  ///< loads, before the lifts are moved to the right
   std::unique_ptr<MembraneProblem> problem_;
 };
 
@@ -258,10 +198,10 @@ class Membranes final : public Model {
     for (int field = 0; field < 3; ++field)
       if (!initial_[field]) initial_[field] = scene_.initial[field];
   }
-  std::string name() const override { return "membranes"; }
+  std::string name() const override { return scene_.count == 1 ? "obstacle" : "membranes"; }
   std::string case_name() const override { return scene_.name == "data" ? "" : scene_.name; }
   void check(const mesh::Mesh& mesh, const std::vector<std::string>& field_names) const override {
-    check_field_names(field_names);
+    check_field_names(scene_, field_names);
     check_functions(scene_, initial_, method_, mesh);
   }
   std::unique_ptr<Discretization> discretize(const mesh::Mesh& mesh) const override {

@@ -21,20 +21,28 @@ std::array<FieldPtr, 2> radial_gradient(const std::vector<double>& centre, F slo
           formula([=](double x, double y) { return slope(std::hypot(x - cx, y - cy)) * (y - cy); })};
 }
 
-/// What the four cases share: unit tensions, the exact solution as Dirichlet data on the whole boundary, a circle of radius R.
-CatalogueEntry entry(const std::string& name, const std::vector<double>& centre, double R, const ExactMembranes& exact) {
+/// What all cases share: unit tensions.
+CatalogueEntry entry(const std::string& name, const std::vector<double>& centre) {
   CatalogueEntry c;
   c.centre = centre;
-  c.constants = {{"R", R}};
   c.scene.name = name;
   for (const Case& known : cases())
-    if (known.name == name) c.scene.sentence = known.sentence;
+    if (known.name == name) {
+      c.scene.sentence = known.sentence;
+      c.scene.count = known.model == Model::obstacle ? 1 : 2;
+    }
+  for (int alpha = 0; alpha < c.scene.count; ++alpha) c.scene.tension[alpha] = constant(1);
+  return c;
+}
+
+/// What the cases share whose solution is known: it gives the Dirichlet data on the whole boundary, and its contact ends at a circle of
+/// radius R.
+CatalogueEntry entry(const std::string& name, const std::vector<double>& centre, double R, const ExactMembranes& exact) {
+  CatalogueEntry c = entry(name, centre);
+  c.constants = {{"R", R}};
   c.scene.exact = exact;
   c.scene.interface_level_set = radial(centre, [R](double r) { return r - R; });
-  for (const int alpha : {0, 1}) {
-    c.scene.tension[alpha] = constant(1);
-    c.scene.default_boundary.value[alpha] = exact.u[alpha];
-  }
+  for (int alpha = 0; alpha < c.scene.count; ++alpha) c.scene.default_boundary.value[alpha] = exact.u[alpha];
   return c;
 }
 
@@ -112,6 +120,32 @@ CatalogueEntry disk_b() {
       [=](double r) { return A * (4 * s - (1 + s) / r); });
 }
 
+/// psi = 1/2 - r^2, f = 0: u = psi inside of the circle, where lambda = -Lap psi = 4; outside u = A + B ln r, with value and slope of psi
+/// at r = R.
+CatalogueEntry radial_obstacle() {
+  const std::vector<double> centre = {0, 0};
+  const double R = 0.6, B = -2 * R * R, A = 0.5 - R * R - B * std::log(R);
+  const auto psi = [](double r) { return 0.5 - r * r; };
+  ExactMembranes exact;
+  exact.u[0] = radial(centre, [=](double r) { return r < R ? psi(r) : A + B * std::log(r); });
+  exact.gradient[0] = radial_gradient(centre, [=](double r) { return r < R ? -2 : B / (r * r); });
+  exact.multiplier = radial(centre, [R](double r) { return r < R ? 4.0 : 0.0; });
+  CatalogueEntry c = entry("radial obstacle", centre, R, exact);
+  c.scene.force[0] = constant(0);
+  c.scene.obstacle = radial(centre, psi);
+  return c;
+}
+
+/// f = -8, psi = -1/4, u = 0 on the boundary. Without the obstacle u would be at most f (R^2 - r^2)/4 in any disk of radius R in the
+/// domain, so -1/2 in the middle of the unit square or lower: there is contact there, and in the unit disk.
+CatalogueEntry torsion() {
+  CatalogueEntry c = entry("torsion", {0, 0});
+  c.scene.force[0] = constant(-8);
+  c.scene.obstacle = constant(-0.25);
+  c.scene.default_boundary.value[0] = constant(0);
+  return c;
+}
+
 }  // namespace
 
 const std::vector<Case>& cases() {
@@ -124,6 +158,10 @@ const std::vector<Case>& cases() {
        "Unit disk: contact for r < 1/sqrt 2, the lower membrane a cubic of r outside, the multiplier jumps; exact solution known."},
       {"disk b", Model::membranes,
        "Unit disk: as 'disk' with a lower membrane that is quadratic in r outside of the contact; exact solution known."},
+      {"radial obstacle", Model::obstacle,
+       "Unit disk: a membrane over a paraboloid that it leaves at r = 0.6, where the multiplier jumps; exact solution known."},
+      {"torsion", Model::obstacle,
+       "Any domain, e.g. the unit square: a membrane held at height 0 and pressed by a constant force on a flat obstacle below."},
   };
   return all;
 }
@@ -133,6 +171,8 @@ CatalogueEntry catalogue(const std::string& name) {
   if (name == "discontinuous multiplier") return discontinuous_multiplier();
   if (name == "disk") return disk();
   if (name == "disk b") return disk_b();
+  if (name == "radial obstacle") return radial_obstacle();
+  if (name == "torsion") return torsion();
   throw core::InputError("'" + name + "' is no catalogued case.");
 }
 

@@ -26,38 +26,41 @@ struct Reader {
   }
 };
 
+/// The functions of membrane alpha, whose place in the deck is `m`. Reads the exact solution if the scene has one.
+void read_membrane(const Reader& read, const SceneParams& params, const MembraneEntries& m, int alpha, MembraneScene& scene) {
+  const DataParams& data = read.data;
+  scene.tension[alpha] = read("data/mu" + m.index, data.*m.mu, constant(1));
+  scene.force[alpha] = read("data/f" + m.index, data.*m.f, constant(0));
+  FieldPtr trace;
+  if (scene.exact) {
+    trace = scene.exact->u[alpha] = read("data/u" + m.index, data.*m.u);
+    scene.exact->gradient[alpha] = read.gradient("data/u" + m.index, data.*m.u_x, data.*m.u_y, trace);
+  }
+  const FieldPtr rest = scene.default_boundary.value[alpha] = read("data/g" + m.index, data.*m.g, trace);
+  for (const auto& [tag, part] : params.boundary) {
+    BoundaryCondition& condition = scene.boundary[tag];
+    condition.kind = part.kind;
+    const std::string path = "boundary/" + tag;
+    condition.value[alpha] = part.kind == BoundaryKind::dirichlet ? read(path + "/g" + m.index, part.*m.g_here, rest)
+                                                                  : read(path + "/t" + m.index, part.*m.t_here, constant(0));
+  }
+}
+
 MembraneScene from_data(const SceneParams& params) {
   const DataParams& data = *params.data;
   const Reader read{data};
+  const auto membranes = membranes_of(params.model);
   MembraneScene scene;
   scene.name = "data";
-  scene.sentence = "Two membranes with the data of the deck.";
-  scene.tension[0] = read("data/mu1", data.mu1, constant(1));
-  scene.tension[1] = read("data/mu2", data.mu2, constant(1));
-  scene.force[0] = read("data/f1", data.f1, constant(0));
-  scene.force[1] = read("data/f2", data.f2, constant(0));
-  if (!data.u1.empty()) {
-    ExactMembranes exact;
-    exact.u[0] = read("data/u1", data.u1);
-    exact.u[1] = read("data/u2", data.u2);
-    exact.gradient[0] = read.gradient("data/u1", data.u1_x, data.u1_y, exact.u[0]);
-    exact.gradient[1] = read.gradient("data/u2", data.u2_x, data.u2_y, exact.u[1]);
-    exact.multiplier = read("data/lambda", data.lambda);
-    scene.exact = exact;
-  }
+  scene.count = static_cast<int>(membranes.size());
+  scene.sentence = scene.count == 1 ? "A membrane over an obstacle with the data of the deck." : "Two membranes with the data of the deck.";
+  scene.obstacle = read("data/psi", data.psi);
   scene.interface_level_set = read("interface", params.interface);
-
-  BoundaryCondition& rest = scene.default_boundary;
-  rest.value[0] = read("data/g1", data.g1, scene.exact ? scene.exact->u[0] : nullptr);
-  rest.value[1] = read("data/g2", data.g2, scene.exact ? scene.exact->u[1] : nullptr);
-  for (const auto& [tag, part] : params.boundary) {
-    const bool dirichlet = part.kind == BoundaryKind::dirichlet;
-    const std::string path = "boundary/" + tag + (dirichlet ? "/g" : "/t");
-    BoundaryCondition& condition = scene.boundary[tag];
-    condition.kind = part.kind;
-    condition.value[0] = dirichlet ? read(path + "1", part.g1, rest.value[0]) : read(path + "1", part.t1, constant(0));
-    condition.value[1] = dirichlet ? read(path + "2", part.g2, rest.value[1]) : read(path + "2", part.t2, constant(0));
+  if (!(data.*membranes[0].u).empty()) {
+    scene.exact.emplace();
+    scene.exact->multiplier = read("data/lambda", data.lambda);
   }
+  for (int alpha = 0; alpha < scene.count; ++alpha) read_membrane(read, params, membranes[alpha], alpha, scene);
   return scene;
 }
 
@@ -71,8 +74,8 @@ MembraneScene from_case(const SceneParams& params) {
 }  // namespace
 
 MembraneScene membrane_scene(const SceneParams& params) {
-  if (params.model != Model::membranes)
-    throw core::InputError("scene/model: only the stationary two membranes can be solved as yet; write 'membranes'.");
+  if (params.model != Model::membranes && params.model != Model::obstacle)
+    throw core::InputError("scene/model: only stationary membranes are described by this scene; write 'membranes' or 'obstacle'.");
   std::string mistakes;
   examine(params, [&](const std::string& path, const std::string& sentence) {
     mistakes += (mistakes.empty() ? "scene" : "\nscene") + (path.empty() ? "" : "/" + path) + ": " + sentence;

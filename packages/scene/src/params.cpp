@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "cases.hpp"
@@ -37,61 +38,108 @@ void examine_constants(const Constants& constants, const Report& report) {
       report(std::string("data/constants/") + taken, "this name has a meaning in every expression already; take another one.");
 }
 
-void examine_exact(const DataParams& data, const Report& report) {
-  const bool known = !data.u1.empty() && !data.u2.empty();
-  if (!data.u1.empty() && data.u2.empty()) report("data/u1", "the exact solution needs u2 as well; give both or none.");
-  if (data.u1.empty() && !data.u2.empty()) report("data/u2", "the exact solution needs u1 as well; give both or none.");
-  if (!known && !data.lambda.empty())
-    report("data/lambda", "an exact multiplier is of use together with u1 and u2 only; give these or drop it.");
-  if (data.u1_x.empty() != data.u1_y.empty()) report(data.u1_x.empty() ? "data/u1_y" : "data/u1_x", "give both u1_x and u1_y or none.");
-  if (data.u2_x.empty() != data.u2_y.empty()) report(data.u2_x.empty() ? "data/u2_y" : "data/u2_x", "give both u2_x and u2_y or none.");
-  if (data.u1.empty() && !data.u1_x.empty())
-    report("data/u1_x", "the gradient of the exact solution needs u1 itself; give it or drop the gradient.");
-  if (data.u2.empty() && !data.u2_x.empty())
-    report("data/u2_x", "the gradient of the exact solution needs u2 itself; give it or drop the gradient.");
+/// A function of the deck, where it stands.
+struct Entry {
+  std::string block, name;
+  const core::Formula& formula;
+  std::string path() const { return block + "/" + name; }
+};
+
+/// All functions of one membrane, in the same order for every membrane.
+std::vector<Entry> entries(const MembraneEntries& m, const SceneParams& params) {
+  const DataParams& data = *params.data;
+  const std::string &l = m.index, u = "u" + l;
+  std::vector<Entry> all = {{"data", "mu" + l, data.*m.mu}, {"data", "f" + l, data.*m.f},    {"data", "g" + l, data.*m.g},
+                            {"data", u, data.*m.u},         {"data", u + "_x", data.*m.u_x}, {"data", u + "_y", data.*m.u_y}};
+  for (const auto& [tag, part] : params.boundary) {
+    all.push_back({"boundary/" + tag, "g" + l, part.*m.g_here});
+    all.push_back({"boundary/" + tag, "t" + l, part.*m.t_here});
+  }
+  return all;
 }
 
-void examine_dirichlet(const SceneParams& params, const DataParams& data, const Report& report) {
-  const bool first = !data.g1.empty() || !data.u1.empty(), second = !data.g2.empty() || !data.u2.empty();
-  const auto missing = [](int alpha) {
-    return fmt::format("nothing says what u{0} is on the boundary; give data/g{0} or the exact solution data/u{0}.", alpha);
+/// Reports functions of the other model; true if there is none.
+bool examine_names(const SceneParams& params, const Report& report) {
+  bool right = true;
+  const auto refuse = [&](const Entry& entry, const std::string& sentence) {
+    if (entry.formula.empty()) return;
+    report(entry.path(), sentence);
+    right = false;
   };
-  if (params.boundary.empty()) {
-    if (!first) report("data", missing(1));
-    if (!second) report("data", missing(2));
-  } else if (first != second) {
-    report("data", missing(first ? 2 : 1));
-  }
-  for (const auto& [tag, part] : params.boundary) {
-    const std::string path = "boundary/" + tag;
-    if (part.kind == BoundaryKind::neumann) {
-      if (!part.g1.empty()) report(path + "/g1", "a part of kind neumann has no g1; give t1, or kind = dirichlet.");
-      if (!part.g2.empty()) report(path + "/g2", "a part of kind neumann has no g2; give t2, or kind = dirichlet.");
+  const auto one = entries(membranes_of(Model::obstacle)[0], params), upper = entries(membranes_of(Model::membranes)[0], params),
+             lower = entries(membranes_of(Model::membranes)[1], params);
+  for (std::size_t i = 0; i < one.size(); ++i)
+    if (params.model == Model::obstacle) {
+      refuse(upper[i], fmt::format("there is one membrane; write {} in place of {}.", one[i].name, upper[i].name));
+      refuse(lower[i],
+             fmt::format("the obstacle psi takes the place of the lower membrane; drop {}, or write model = 'membranes'.", lower[i].name));
     } else {
-      if (!part.t1.empty()) report(path + "/t1", "a part of kind dirichlet has no t1; give g1, or kind = neumann.");
-      if (!part.t2.empty()) report(path + "/t2", "a part of kind dirichlet has no t2; give g2, or kind = neumann.");
-      if (part.g1.empty() && !first) report(path, "give g1 here or in data.");
-      if (part.g2.empty() && !second) report(path, "give g2 here or in data.");
+      refuse(one[i], fmt::format("there are two membranes; write {} and {} in place of {}, or model = 'obstacle'.", upper[i].name,
+                                 lower[i].name, one[i].name));
+    }
+  if (params.model != Model::obstacle)
+    refuse({"data", "psi", params.data->psi}, "the lower membrane takes the place of an obstacle; drop psi, or write model = 'obstacle'.");
+  return right;
+}
+
+void examine_exact(const std::vector<MembraneEntries>& membranes, const DataParams& data, const Report& report) {
+  std::string all;  // "u1 and u2"
+  bool known = true;
+  for (const auto& m : membranes) {
+    all += (all.empty() ? "u" : " and u") + m.index;
+    known = known && !(data.*m.u).empty();
+  }
+  if (!known && !data.lambda.empty())
+    report("data/lambda", fmt::format("an exact multiplier is of use together with {0} only; give {0} or drop lambda.", all));
+  for (const auto& m : membranes) {
+    const std::string u = "u" + m.index, path = "data/" + u;
+    const bool in_x = !(data.*m.u_x).empty(), in_y = !(data.*m.u_y).empty();
+    for (const auto& other : membranes)
+      if (!(data.*m.u).empty() && (data.*other.u).empty())
+        report(path, fmt::format("the exact solution needs u{} as well; give both or none.", other.index));
+    if (in_x != in_y) report(path + (in_x ? "_x" : "_y"), fmt::format("give both {0}_x and {0}_y or none.", u));
+    if ((data.*m.u).empty() && in_x)
+      report(path + "_x", fmt::format("the gradient of the exact solution needs {} itself; give it or drop the gradient.", u));
+  }
+}
+
+void examine_dirichlet(const std::vector<MembraneEntries>& membranes, const SceneParams& params, const Report& report) {
+  const auto held = [&data = *params.data](const MembraneEntries& m) { return !(data.*m.g).empty() || !(data.*m.u).empty(); };
+  // parts that are not named are held by the data: every membrane or none
+  const bool everywhere = params.boundary.empty() || std::any_of(membranes.begin(), membranes.end(), held);
+  for (const auto& m : membranes) {
+    const std::string& l = m.index;
+    if (everywhere && !held(m))
+      report("data", fmt::format("nothing says what u{0} is on the boundary; give data/g{0} or the exact solution data/u{0}.", l));
+    for (const auto& [tag, part] : params.boundary) {
+      const std::string path = "boundary/" + tag;
+      const bool g = !(part.*m.g_here).empty(), t = !(part.*m.t_here).empty();
+      if (part.kind == BoundaryKind::neumann) {
+        if (g) report(path + "/g" + l, fmt::format("a part of kind neumann has no g{0}; give t{0}, or kind = dirichlet.", l));
+      } else {
+        if (t) report(path + "/t" + l, fmt::format("a part of kind dirichlet has no t{0}; give g{0}, or kind = neumann.", l));
+        if (!g && !held(m)) report(path, fmt::format("give g{} here or in data.", l));
+      }
     }
   }
 }
 
-void examine_data(const SceneParams& params, const DataParams& data, const Report& report) {
-  const std::pair<const char*, const core::Formula*> all[] = {
-      {"mu1", &data.mu1},   {"mu2", &data.mu2},   {"f1", &data.f1},    {"f2", &data.f2},         {"g1", &data.g1},
-      {"g2", &data.g2},     {"u1", &data.u1},     {"u2", &data.u2},    {"lambda", &data.lambda}, {"u1_x", &data.u1_x},
-      {"u1_y", &data.u1_y}, {"u2_x", &data.u2_x}, {"u2_y", &data.u2_y}};
-  for (const auto& [name, formula] : all) examine_formula(std::string("data/") + name, *formula, data.constants, report);
-  examine_tension("data/mu1", data.mu1, data.constants, report);
-  examine_tension("data/mu2", data.mu2, data.constants, report);
-  for (const auto& [tag, part] : params.boundary) {
-    const std::pair<const char*, const core::Formula*> here[] = {{"g1", &part.g1}, {"g2", &part.g2}, {"t1", &part.t1}, {"t2", &part.t2}};
-    for (const auto& [name, formula] : here) examine_formula("boundary/" + tag + "/" + name, *formula, data.constants, report);
+void examine_data(const SceneParams& params, const Report& report) {
+  const DataParams& data = *params.data;
+  const auto membranes = membranes_of(params.model);
+  for (const auto& m : membranes) {
+    for (const auto& entry : entries(m, params)) examine_formula(entry.path(), entry.formula, data.constants, report);
+    examine_tension("data/mu" + m.index, data.*m.mu, data.constants, report);
   }
+  examine_formula("data/psi", data.psi, data.constants, report);
+  examine_formula("data/lambda", data.lambda, data.constants, report);
+  examine_formula("interface", params.interface, data.constants, report);
   examine_constants(data.constants, report);
   if (data.centre.size() != 2) report("data/centre", "the centre has two coordinates; write {x,y}.");
-  examine_exact(data, report);
-  examine_dirichlet(params, data, report);
+  if (!examine_names(params, report)) return;  // what seems to be missing may only have a wrong name
+  examine_exact(membranes, data, report);
+  examine_dirichlet(membranes, params, report);
+  if (params.model == Model::obstacle && data.psi.empty()) report("data/psi", "nothing says where the obstacle is; give psi, its height.");
 }
 
 const std::vector<std::pair<std::string, Model>>& models() {
@@ -124,35 +172,53 @@ core::Range case_names() {
 
 }  // namespace
 
+std::vector<MembraneEntries> membranes_of(Model model) {
+  using D = DataParams;
+  using B = BoundaryParams;
+  switch (model) {
+    case Model::obstacle:
+      return {{"", &D::mu, &D::f, &D::g, &D::u, &D::u_x, &D::u_y, &B::g, &B::t}};
+    case Model::membranes:
+    case Model::parabolic_membranes:
+      return {{"1", &D::mu1, &D::f1, &D::g1, &D::u1, &D::u1_x, &D::u1_y, &B::g1, &B::t1},
+              {"2", &D::mu2, &D::f2, &D::g2, &D::u2, &D::u2_x, &D::u2_y, &B::g2, &B::t2}};
+    default:
+      return {};
+  }
+}
+
 void examine(const SceneParams& params, const Report& report) {
   if (params.case_name && params.data) return report("data", "there is a case as well; give either 'case' or 'data'.");
   if (!params.case_name && !params.data)
     return report("", "nothing says which problem to solve; give a catalogued 'case' or a sublist 'data'.");
-  if (params.data) {
-    examine_data(params, *params.data, report);
-    examine_formula("interface", params.interface, params.data->constants, report);
-  } else {
-    examine_case(params, report);
-  }
+  if (!params.data) return examine_case(params, report);
+  if (!membranes_of(params.model).empty()) examine_data(params, report);
 }
 
 const core::Schema<DataParams>& DataParams::schema() {
   static const auto s =
       core::Schema<DataParams>(
           "data", "The functions of the problem: numbers or expressions of x, y, t, r (distance to the centre), pi and the constants.")
-          .parameter("mu1", &DataParams::mu1, "Tension of the upper membrane; positive.")
-          .parameter("mu2", &DataParams::mu2, "Tension of the lower membrane; positive.")
-          .parameter("f1", &DataParams::f1, "Force on the upper membrane.")
-          .parameter("f2", &DataParams::f2, "Force on the lower membrane.")
+          .parameter("mu1", &DataParams::mu1, "Tension of the upper membrane; positive, without it 1.")
+          .parameter("mu2", &DataParams::mu2, "Tension of the lower membrane; positive, without it 1.")
+          .parameter("f1", &DataParams::f1, "Force on the upper membrane; without it 0.")
+          .parameter("f2", &DataParams::f2, "Force on the lower membrane; without it 0.")
           .parameter("g1", &DataParams::g1, "Height of the upper membrane on the boundary; without it that of u1.")
           .parameter("g2", &DataParams::g2, "Height of the lower membrane on the boundary, at most g1; without it that of u2.")
           .parameter("u1", &DataParams::u1, "Exact solution, upper membrane, if known.")
           .parameter("u2", &DataParams::u2, "Exact solution, lower membrane, if known.")
-          .parameter("lambda", &DataParams::lambda, "Exact multiplier, if known.")
           .parameter("u1_x", &DataParams::u1_x, "Derivative of u1 in x; without it differences of u1.")
           .parameter("u1_y", &DataParams::u1_y, "Derivative of u1 in y; without it differences of u1.")
           .parameter("u2_x", &DataParams::u2_x, "Derivative of u2 in x; without it differences of u2.")
           .parameter("u2_y", &DataParams::u2_y, "Derivative of u2 in y; without it differences of u2.")
+          .parameter("mu", &DataParams::mu, "Model obstacle: tension of the membrane; positive, without it 1.")
+          .parameter("f", &DataParams::f, "Model obstacle: force on the membrane; without it 0.")
+          .parameter("g", &DataParams::g, "Model obstacle: height of the membrane on the boundary, at least psi; without it that of u.")
+          .parameter("psi", &DataParams::psi, "Model obstacle: height of the obstacle; must be given.")
+          .parameter("u", &DataParams::u, "Model obstacle: exact solution, if known.")
+          .parameter("u_x", &DataParams::u_x, "Model obstacle: derivative of u in x; without it differences of u.")
+          .parameter("u_y", &DataParams::u_y, "Model obstacle: derivative of u in y; without it differences of u.")
+          .parameter("lambda", &DataParams::lambda, "Exact multiplier, if known.")
           .parameter("centre", &DataParams::centre, core::entries(2), "The point from which r is measured.")
           .values("constants", &DataParams::constants,
                   "Named numbers that the expressions of this block, of 'interface' and of 'boundary' may use.");
@@ -162,13 +228,16 @@ const core::Schema<DataParams>& DataParams::schema() {
 const core::Schema<BoundaryParams>& BoundaryParams::schema() {
   static const auto s =
       core::Schema<BoundaryParams>("boundary",
-                                   "One sublist per boundary tag, for both membranes; other parts are dirichlet with g1, g2 of the data.")
+                                   "One sublist per boundary tag; other parts are dirichlet with g1, g2 (model obstacle: g) of the data.")
           .choice("kind", &BoundaryParams::kind, {{"dirichlet", BoundaryKind::dirichlet}, {"neumann", BoundaryKind::neumann}},
-                  "dirichlet: u1 = g1, u2 = g2; neumann: mu1 du1/dn = t1, mu2 du2/dn = t2, n outward.")
+                  "dirichlet: u1 = g1, u2 = g2; neumann: mu1 du1/dn = t1, mu2 du2/dn = t2, n outward; model obstacle: the same without "
+                  "indices.")
           .parameter("g1", &BoundaryParams::g1, "Of kind dirichlet: height of the upper membrane; without it g1 of the data.")
           .parameter("g2", &BoundaryParams::g2, "Of kind dirichlet: height of the lower membrane; without it g2 of the data.")
           .parameter("t1", &BoundaryParams::t1, "Of kind neumann: force per length on the upper membrane; without it 0.")
-          .parameter("t2", &BoundaryParams::t2, "Of kind neumann: force per length on the lower membrane; without it 0.");
+          .parameter("t2", &BoundaryParams::t2, "Of kind neumann: force per length on the lower membrane; without it 0.")
+          .parameter("g", &BoundaryParams::g, "Of kind dirichlet, model obstacle: height of the membrane; without it g of the data.")
+          .parameter("t", &BoundaryParams::t, "Of kind neumann, model obstacle: force per length on the membrane; without it 0.");
   return s;
 }
 

@@ -103,6 +103,63 @@ TEST(MembraneScene, leaves_the_other_parts_without_condition_if_only_tagged_ones
   EXPECT_EQ(scene.default_boundary.value[0], nullptr);
 }
 
+SceneParams over_obstacle(const std::string& psi, const std::string& g) {
+  SceneParams params;
+  params.model = Model::obstacle;
+  params.data.emplace();
+  params.data->psi.text = psi;
+  params.data->g.text = g;
+  return params;
+}
+
+TEST(MembraneScene, over_an_obstacle_from_expressions_equals_the_catalogued_one) {
+  SceneParams params;
+  params.model = Model::obstacle;
+  params.case_name = "radial obstacle";
+  const MembraneScene catalogued = membrane_scene(params);
+  params = over_obstacle("0.5 - r^2", "");
+  params.data->constants = {{"R", 0.6}};
+  params.data->u.text = "r < R ? 0.5 - r^2 : 0.5 - R^2 - 2*R^2*ln(r/R)";
+  params.data->lambda.text = "r < R ? 4 : 0";
+  params.interface.text = "r - R";
+  const MembraneScene given = membrane_scene(params);
+  EXPECT_EQ(given.count, 1);
+  EXPECT_EQ(given.tension[1], nullptr);
+  EXPECT_EQ(given.force[1], nullptr);
+  EXPECT_EQ(given.exact->u[1], nullptr);
+  const Sample sample = ring(0, 0, 0.01, 1, 2000);
+  const auto expect_equal = [&](const FieldPtr& a, const FieldPtr& b, double tolerance) {
+    const auto left = sample(a), right = sample(b);
+    for (std::size_t i = 0; i < left.size(); ++i) EXPECT_NEAR(left[i], right[i], tolerance);
+  };
+  expect_equal(given.obstacle, catalogued.obstacle, 1e-15);
+  expect_equal(given.interface_level_set, catalogued.interface_level_set, 1e-15);
+  expect_equal(given.tension[0], catalogued.tension[0], 0);
+  expect_equal(given.force[0], catalogued.force[0], 0);
+  expect_equal(given.exact->u[0], catalogued.exact->u[0], 1e-15);
+  expect_equal(given.exact->multiplier, catalogued.exact->multiplier, 0);
+  expect_equal(given.default_boundary.value[0], catalogued.default_boundary.value[0], 1e-15);
+  for (const int direction : {0, 1}) expect_equal(given.exact->gradient[0][direction], catalogued.exact->gradient[0][direction], 1e-9);
+}
+
+TEST(MembraneScene, over_an_obstacle_has_conditions_by_boundary_tag) {
+  SceneParams params = over_obstacle("-1 - x", "0.5");
+  params.data->mu.text = "2";
+  params.boundary["wall"].g.text = "3";
+  params.boundary["rest"].kind = BoundaryKind::dirichlet;
+  params.boundary["pulled"].kind = params.boundary["free"].kind = BoundaryKind::neumann;
+  params.boundary["pulled"].t.text = "-4";
+  const MembraneScene scene = membrane_scene(params);
+  EXPECT_EQ(*scene.tension[0]->constant(), 2);
+  EXPECT_EQ(*scene.default_boundary.value[0]->constant(), 0.5);
+  EXPECT_EQ(*scene.boundary.at("wall").value[0]->constant(), 3);
+  EXPECT_EQ(*scene.boundary.at("rest").value[0]->constant(), 0.5);
+  EXPECT_EQ(scene.boundary.at("pulled").kind, BoundaryKind::neumann);
+  EXPECT_EQ(*scene.boundary.at("pulled").value[0]->constant(), -4);
+  EXPECT_EQ(*scene.boundary.at("free").value[0]->constant(), 0);
+  for (const auto& [tag, condition] : scene.boundary) EXPECT_EQ(condition.value[1], nullptr) << tag;
+}
+
 TEST(MembraneScene, wants_either_a_case_or_data) {
   SceneParams params;
   EXPECT_EQ(message_of([&] { membrane_scene(params); }),
@@ -133,7 +190,60 @@ TEST(MembraneScene, refuses_what_can_not_be_meant) {
             std::string::npos);
   params = by_height("1", "0");
   params.model = Model::signorini;
-  EXPECT_NE(message_of([&] { membrane_scene(params); }).find("scene/model: "), std::string::npos);
+  EXPECT_EQ(message_of([&] { membrane_scene(params); }),
+            "scene/model: only stationary membranes are described by this scene; write 'membranes' or 'obstacle'.");
+}
+
+TEST(MembraneScene, over_an_obstacle_refuses_what_can_not_be_meant) {
+  const auto refused = [](const std::function<void(SceneParams&)>& spoil) {
+    SceneParams params = over_obstacle("-1", "0");
+    spoil(params);
+    return message_of([&] { membrane_scene(params); });
+  };
+  EXPECT_EQ(refused([](auto&) {}), "no error");
+  EXPECT_EQ(refused([](auto& p) { p.data->psi.text = ""; }), "scene/data/psi: nothing says where the obstacle is; give psi, its height.");
+  EXPECT_EQ(refused([](auto& p) { p.data->g.text = ""; }),
+            "scene/data: nothing says what u is on the boundary; give data/g or the exact solution data/u.");
+  EXPECT_EQ(refused([](auto& p) { p.data->mu.text = "1 - 1"; }), "scene/data/mu: a tension must be positive, not 1 - 1.");
+  EXPECT_EQ(refused([](auto& p) { p.data->psi.text = "1/0"; }), "scene/data/psi: '1/0' is not a finite number.");
+  EXPECT_NE(refused([](auto& p) { p.data->constants["pi"] = 3; }).find("scene/data/constants/pi: this name has a meaning"),
+            std::string::npos);
+  EXPECT_EQ(refused([](auto& p) { p.data->lambda.text = "1"; }),
+            "scene/data/lambda: an exact multiplier is of use together with u only; give u or drop lambda.");
+  EXPECT_EQ(refused([](auto& p) { p.data->u.text = p.data->u_x.text = "1"; }), "scene/data/u_x: give both u_x and u_y or none.");
+  EXPECT_EQ(refused([](auto& p) { p.data->u_x.text = p.data->u_y.text = "1"; }),
+            "scene/data/u_x: the gradient of the exact solution needs u itself; give it or drop the gradient.");
+  EXPECT_EQ(refused([](auto& p) {
+              p.boundary["free"].kind = BoundaryKind::neumann;
+              p.boundary["free"].g.text = "1";
+            }),
+            "scene/boundary/free/g: a part of kind neumann has no g; give t, or kind = dirichlet.");
+  EXPECT_EQ(refused([](auto& p) { p.boundary["wall"].t.text = "1"; }),
+            "scene/boundary/wall/t: a part of kind dirichlet has no t; give g, or kind = neumann.");
+  EXPECT_EQ(refused([](auto& p) {
+              p.data->g.text = "";
+              p.boundary["wall"];
+            }),
+            "scene/boundary/wall: give g here or in data.");
+}
+
+TEST(MembraneScene, refuses_the_functions_of_the_other_model_by_one_sentence_each) {
+  SceneParams params = over_obstacle("-1", "");
+  params.data->g1.text = "0";
+  params.data->u2_x.text = "0";
+  params.boundary["wall"].t2.text = "1";
+  EXPECT_EQ(message_of([&] { membrane_scene(params); }),
+            "scene/data/g1: there is one membrane; write g in place of g1.\n"
+            "scene/data/u2_x: the obstacle psi takes the place of the lower membrane; drop u2_x, or write model = 'membranes'.\n"
+            "scene/boundary/wall/t2: the obstacle psi takes the place of the lower membrane; drop t2, or write model = 'membranes'.");
+  params = by_height("1", "");
+  params.data->f.text = "-8";
+  params.data->psi.text = "-1";
+  params.boundary["wall"].g.text = "1";
+  EXPECT_EQ(message_of([&] { membrane_scene(params); }),
+            "scene/data/f: there are two membranes; write f1 and f2 in place of f, or model = 'obstacle'.\n"
+            "scene/boundary/wall/g: there are two membranes; write g1 and g2 in place of g, or model = 'obstacle'.\n"
+            "scene/data/psi: the lower membrane takes the place of an obstacle; drop psi, or write model = 'obstacle'.");
 }
 
 TEST(MembraneScene, reports_all_unreadable_expressions_at_once) {
@@ -156,6 +266,7 @@ SceneParams parse(const std::string& inside) {
       .scene;
 }
 const std::string model = "<Parameter name=\"model\" type=\"string\" value=\"membranes\"/>\n";
+const std::string obstacle = "<Parameter name=\"model\" type=\"string\" value=\"obstacle\"/>\n";
 
 TEST(SceneDeck, names_a_case_or_brings_data) {
   EXPECT_EQ(parse(model + "<Parameter name=\"case\" type=\"string\" value=\"disk b\"/>\n").case_name, "disk b");
@@ -172,6 +283,46 @@ TEST(SceneDeck, names_a_case_or_brings_data) {
   EXPECT_EQ(sample(scene.default_boundary.value[0])[0], 6);
   EXPECT_EQ(*scene.tension[0]->constant(), 2);
   EXPECT_EQ(scene.boundary.at("left").kind, BoundaryKind::neumann);
+}
+
+TEST(SceneDeck, describes_a_membrane_over_an_obstacle) {
+  const MembraneScene scene = membrane_scene(
+      parse(obstacle +
+            "<ParameterList name=\"data\">\n<Parameter name=\"mu\" type=\"double\" value=\"2\"/>\n"
+            "<Parameter name=\"f\" type=\"int\" value=\"-8\"/>\n<Parameter name=\"g\" type=\"string\" value=\"x + 1\"/>\n"
+            "<Parameter name=\"psi\" type=\"string\" value=\"min(x, y)\"/>\n<Parameter name=\"u\" type=\"string\" value=\"x*y\"/>\n"
+            "<Parameter name=\"u_x\" type=\"string\" value=\"y\"/>\n<Parameter name=\"u_y\" type=\"string\" value=\"x\"/>\n"
+            "<Parameter name=\"lambda\" type=\"double\" value=\"7\"/>\n</ParameterList>\n<ParameterList name=\"boundary\">\n"
+            "<ParameterList name=\"left\">\n<Parameter name=\"kind\" type=\"string\" value=\"neumann\"/>\n"
+            "<Parameter name=\"t\" type=\"double\" value=\"5\"/>\n</ParameterList>\n<ParameterList name=\"right\">\n"
+            "<Parameter name=\"g\" type=\"double\" value=\"6\"/>\n</ParameterList>\n</ParameterList>\n"));
+  Sample sample;
+  sample.add(2, 3);
+  EXPECT_EQ(scene.count, 1);
+  EXPECT_EQ(*scene.tension[0]->constant(), 2);
+  EXPECT_EQ(*scene.force[0]->constant(), -8);
+  EXPECT_EQ(sample(scene.default_boundary.value[0])[0], 3);
+  EXPECT_EQ(sample(scene.obstacle)[0], 2);
+  EXPECT_EQ(sample(scene.exact->u[0])[0], 6);
+  EXPECT_EQ(sample(scene.exact->gradient[0][0])[0], 3);
+  EXPECT_EQ(sample(scene.exact->gradient[0][1])[0], 2);
+  EXPECT_EQ(*scene.exact->multiplier->constant(), 7);
+  EXPECT_EQ(*scene.boundary.at("left").value[0]->constant(), 5);
+  EXPECT_EQ(*scene.boundary.at("right").value[0]->constant(), 6);
+}
+
+TEST(SceneDeck, says_file_and_line_of_a_function_of_the_other_model_and_of_what_is_missing) {
+  const std::string g = "<Parameter name=\"g\" type=\"double\" value=\"0\"/>\n", f1 = "<Parameter name=\"f1\" type=\"int\" value=\"0\"/>\n";
+  const auto refused = [](const std::string& functions) {
+    return message_of([&] { parse(obstacle + "<ParameterList name=\"data\">\n" + functions + "</ParameterList>\n"); });
+  };
+  EXPECT_EQ(refused(g + f1), "d.xml:6: scene/data/f1: there is one membrane; write f in place of f1.");
+  EXPECT_EQ(refused(g), "d.xml:4: scene/data/psi: nothing says where the obstacle is; give psi, its height.");
+}
+
+TEST(SceneDeck, leaves_the_data_of_models_without_membranes_to_them) {
+  EXPECT_EQ(parse("<Parameter name=\"model\" type=\"string\" value=\"signorini\"/>\n<ParameterList name=\"data\"/>\n").model,
+            Model::signorini);
 }
 
 TEST(SceneDeck, says_file_and_line_of_an_expression_that_can_not_be_read) {
@@ -195,7 +346,10 @@ TEST(SceneDeck, is_written_and_read_again) {
   for (const std::string& inside :
        {model + "<Parameter name=\"case\" type=\"string\" value=\"disk b\"/>\n",
         model + "<ParameterList name=\"data\">\n<Parameter name=\"g1\" type=\"string\" value=\"x &lt; 0 ? 1 : 2\"/>\n"
-                "<Parameter name=\"g2\" type=\"double\" value=\"-1\"/>\n</ParameterList>\n"}) {
+                "<Parameter name=\"g2\" type=\"double\" value=\"-1\"/>\n</ParameterList>\n",
+        obstacle + "<Parameter name=\"case\" type=\"string\" value=\"torsion\"/>\n",
+        obstacle + "<ParameterList name=\"data\">\n<Parameter name=\"g\" type=\"double\" value=\"0\"/>\n"
+                   "<Parameter name=\"psi\" type=\"string\" value=\"-r\"/>\n</ParameterList>\n"}) {
     const std::string written = core::to_xml(schema, Root{parse(inside)});
     const SceneParams again = core::Deck::from_text(written, "again.xml").parse(schema).scene;
     EXPECT_EQ(core::to_xml(schema, Root{again}), written);
@@ -204,9 +358,7 @@ TEST(SceneDeck, is_written_and_read_again) {
 }
 
 TEST(SceneDeck, says_to_which_model_a_case_belongs) {
-  const std::string message = message_of([] {
-    parse("<Parameter name=\"model\" type=\"string\" value=\"obstacle\"/>\n<Parameter name=\"case\" type=\"string\" value=\"disk\"/>\n");
-  });
+  const std::string message = message_of([] { parse(obstacle + "<Parameter name=\"case\" type=\"string\" value=\"disk\"/>\n"); });
   EXPECT_EQ(message, "d.xml:4: scene/case: 'disk' is a case of another model; write model = 'membranes' or take one of its own.");
 }
 

@@ -97,6 +97,46 @@ TEST(Methods, agree_in_full_and_reduced_form) {
   });
 }
 
+namespace {
+
+std::size_t allocations = 0;
+
+/// Kokkos allocations of: space, matrix, load, residual cell by cell, error on T_level, with constant or varying data.
+std::size_t allocations_on(int level, const method::MethodParams& method, const std::string& tension) {
+  auto params = pressed(tension, tension, level);
+  const mesh::Hierarchy hierarchy = mesh::build(params.mesh, core::Comm(MPI_COMM_SELF), "");
+  const mesh::Mesh& mesh = hierarchy.finest();
+  const auto scene = scene::membrane_scene(params.scene);
+  const method::BoundaryValues boundary = {std::vector<scene::FieldPtr>(mesh.tags.size(), scene::constant(1)),
+                                           std::vector<scene::FieldPtr>(mesh.tags.size(), nullptr)};
+  Kokkos::Tools::Experimental::set_allocate_data_callback(
+      [](Kokkos_Profiling_SpaceHandle, const char*, const void*, const std::uint64_t) { ++allocations; });
+  allocations = 0;
+  {
+    const auto space = factory(method.name)(mesh, {std::vector<bool>(mesh.tags.size(), true), nullptr, method});
+    Vector F(space->map());
+    space->load(*scene.tension[0], *scene.force[0], boundary, 0, F);
+    const auto S = space->stiffness(*scene.tension[0]);
+    const auto u = space->complete(F, space->lift(boundary, 0));
+    space->forces(*scene.tension[0], u, F);
+    space->energy_error(*scene.tension[0], u, {scene::constant(0), scene::constant(0)}, 0);
+  }
+  Kokkos::Tools::Experimental::set_allocate_data_callback(nullptr);
+  return allocations;
+}
+
+}  // namespace
+
+TEST(Methods, allocate_nothing_per_cell) {
+  for_each_method([](const std::string& name, const method::MethodParams& method) {
+    for (const char* tension : {"2", "1 + x"}) {
+      const std::size_t coarse = allocations_on(1, method, tension);
+      EXPECT_GT(coarse, 10u);
+      EXPECT_EQ(allocations_on(3, method, tension), coarse) << name;
+    }
+  });
+}
+
 /// Static condensation is exact algebra: all Newton iterates stay the same.
 class Condensed : public ::testing::TestWithParam<complementarity::CFunction> {
  protected:
@@ -141,6 +181,6 @@ TEST_P(Condensed, bubbles_of_fem_have_the_iterates_of_the_uncondensed_systems) {
 }
 INSTANTIATE_TEST_SUITE_P(CFunction, Condensed,
                          ::testing::Values(complementarity::CFunction::min, complementarity::CFunction::fischer_burmeister),
-                         [](const auto& info) { return info.param == complementarity::CFunction::min ? "min" : "fischer_burmeister"; });
+                         [](const auto& chosen) { return chosen.param == complementarity::CFunction::min ? "min" : "fischer_burmeister"; });
 
 }  // namespace thixis::verification

@@ -11,6 +11,14 @@
 namespace thixis::verification {
 namespace {
 
+void solve_directly(drive::RunParams& params) {
+  params.newton.start = complementarity::Start::nested;
+  params.linear.form = algebra::SystemForm::reduced;
+  params.linear.solver = algebra::SolverKind::direct;
+}
+
+}  // namespace
+
 method::SpaceFactory factory(method::MethodName name) {
   switch (name) {
     case method::MethodName::dg:
@@ -21,14 +29,6 @@ method::SpaceFactory factory(method::MethodName name) {
       return fem::make_lagrange_space;
   }
 }
-
-void solve_directly(drive::RunParams& params) {
-  params.newton.start = complementarity::Start::nested;
-  params.linear.form = algebra::SystemForm::reduced;
-  params.linear.solver = algebra::SolverKind::direct;
-}
-
-}  // namespace
 
 Solved solve(const drive::RunParams& params, const core::Comm& comm, const drive::Observer& observer) {
   Solved run;

@@ -32,6 +32,9 @@ drive::RunParams pressed(const std::string& mu1, const std::string& mu2, int lev
 /// The block `method` by its main entries.
 method::MethodParams by(method::MethodName name, int degree, method::Nodes nodes = method::Nodes::gauss_lobatto);
 
+/// The spaces of a method.
+method::SpaceFactory factory(method::MethodName name);
+
 /// All methods of one degree, each with its name for messages: fem, sipg, nipg, hho.
 std::vector<std::pair<std::string, method::MethodParams>> all_methods(int degree);
 

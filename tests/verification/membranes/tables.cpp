@@ -26,7 +26,7 @@ std::vector<Row> rows() {
     std::string problem, name, nodes, length, boundary;
     Row row;
     words >> problem >> name >> row.method.degree >> nodes >> length >> boundary;
-    row.text = line.substr(0, line.find_first_of("123456789", line.find(boundary, line.find(length))));
+    row.text = problem + ", " + name + " P" + std::to_string(row.method.degree) + ", " + nodes + ", " + length + ", " + boundary;
     row.problem = problem == "S" ? "smooth contact" : problem == "D" ? "discontinuous multiplier" : "disk b";
     row.method.name = name == "fem" ? method::MethodName::fem : name == "hho" ? method::MethodName::hho : method::MethodName::dg;
     row.method.nodes = nodes == "equispaced" ? method::Nodes::equispaced : method::Nodes::gauss_lobatto;

@@ -58,6 +58,8 @@ inline MapPtr map_of(const std::vector<GlobalIndex>& ids, const core::Comm& comm
 
 /// The map of `fields` unknowns per id of another map: id g becomes fields·g, ..., fields·g + fields - 1. Not collective for column maps.
 MapPtr interlaced(const MapPtr& map, int fields);
+/// Likewise, but only the first `complete` ids of this rank have their last field; the ids of the missing ones are left out. Collective.
+MapPtr interlaced(const MapPtr& map, int fields, LocalIndex complete);
 
 /// Collective. The graph with these rows and columns, given in local column indices, sorted in each row.
 GraphPtr make_graph(const MapPtr& rows, const MapPtr& columns, const Graph::local_graph_device_type::row_map_type::non_const_type& row_map,

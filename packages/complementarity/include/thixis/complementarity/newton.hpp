@@ -40,6 +40,7 @@ struct NewtonObserver {
 struct NewtonReport {
   int steps = 0;  ///< linear systems solved and used
   bool converged = false;
+  bool settled = true;      ///< false: Newton-min met the residual test, but its last step still changed the contact set
   std::string why;                                              ///< one sentence: why it ended
   int linear_iterations = 0;                                    ///< total
   std::vector<double> residuals;                                ///< |(E(X^k) - F, C(X^k))|, k = 0 ... steps

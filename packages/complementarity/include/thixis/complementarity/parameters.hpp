@@ -11,9 +11,10 @@ enum class Start { cold, nested };
 enum class Globalization { none, line_search, hybrid };
 enum class Scaling { none, physical };
 
-/// Block `newton/initial`: the functions a cold start begins with; nothing given is zero inside. They are evaluated by the model.
+/// Block `newton/initial`: the functions a cold start begins with; nothing given is zero inside. They are evaluated by the model:
+/// u1 and u2 are the two membranes, u is the one over an obstacle.
 struct InitialParams {
-  std::optional<core::Formula> u1, u2, lambda;
+  std::optional<core::Formula> u, u1, u2, lambda;
   static const core::Schema<InitialParams>& schema();
 };
 
@@ -25,9 +26,9 @@ struct NewtonParams {
   InitialParams initial;
   Globalization globalization = Globalization::none;
   Ties ties = Ties::contact;
-  double tie_tolerance = 0;
+  double tie_tolerance = 1e-12;
   Scaling scaling = Scaling::physical;
-  std::optional<int> sweeps;  ///< of nonlinear smoothing after a step; not given: 10 in nested runs, otherwise none
+  std::optional<int> sweeps;  ///< of nonlinear smoothing after a step; not given: 10 in nested runs of fem of degree 1, otherwise none
   static const core::Schema<NewtonParams>& schema();
 };
 

@@ -43,7 +43,9 @@ class Discretization {
   virtual double energy_norm(const algebra::Vector& X) const = 0;
   /// Everything the verifier needs, recomputed from X cell by cell.
   virtual complementarity::KktData kkt_data(const algebra::Vector& X) const = 0;
-  /// The fields that the model can show, by name; `names` empty: all.
+  /// What fields are shown on.
+  virtual output::Grid grid() const = 0;
+  /// The fields that the model can show, on the points of grid(), by name; `names` empty: all.
   virtual std::vector<output::FieldData> fields(const algebra::Vector& X, const complementarity::ActiveSet& active,
                                                 const std::vector<std::string>& names) const = 0;
 };

@@ -20,13 +20,15 @@ enum class BoundaryKind {
 };
 
 /// Sublist `data`: the functions of a membrane problem. Each is a number or an expression of x, y, t, r, pi and the constants.
+/// Those of the one membrane over an obstacle have no index.
 struct DataParams {
-  core::Formula mu1{"1"}, mu2{"1"};      ///< tensions, positive
-  core::Formula f1{"0"}, f2{"0"};        ///< forces
-  core::Formula g1, g2;                  ///< Dirichlet data; not given: the trace of u1, u2
-  core::Formula u1, u2, lambda;          ///< the exact solution, if known
-  core::Formula u1_x, u1_y, u2_x, u2_y;  ///< its gradient; not given: differences
-  std::vector<double> centre = {0, 0};   ///< r is the distance to it
+  core::Formula mu, mu1, mu2;                      ///< tensions, positive; not given: 1
+  core::Formula f, f1, f2;                         ///< forces; not given: 0
+  core::Formula g, g1, g2;                         ///< Dirichlet data; not given: the trace of the exact solution
+  core::Formula psi;                               ///< the obstacle
+  core::Formula u, u1, u2, lambda;                 ///< the exact solution, if known
+  core::Formula u_x, u_y, u1_x, u1_y, u2_x, u2_y;  ///< its gradient; not given: differences
+  std::vector<double> centre = {0, 0};             ///< r is the distance to it
   std::map<std::string, double> constants;
   static const core::Schema<DataParams>& schema();
 };
@@ -34,8 +36,8 @@ struct DataParams {
 /// One sublist of `boundary`, for the boundary part whose tag is its name.
 struct BoundaryParams {
   BoundaryKind kind = BoundaryKind::dirichlet;
-  core::Formula g1, g2;  ///< dirichlet; not given: data/g1, data/g2
-  core::Formula t1, t2;  ///< neumann; not given: 0
+  core::Formula g, g1, g2;  ///< dirichlet; not given: those of the data
+  core::Formula t, t1, t2;  ///< neumann; not given: 0
   static const core::Schema<BoundaryParams>& schema();
 };
 
@@ -51,13 +53,13 @@ struct SceneParams {
 
 // -- the continuous problem ---------------------------------------------------------------------------------------------------------
 
-/// Condition on one part of the boundary, for u_1 and u_2.
+/// Condition on one part of the boundary, for every membrane.
 struct BoundaryCondition {
   BoundaryKind kind = BoundaryKind::dirichlet;
-  FieldPtr value[2];  ///< g_alpha or t_alpha; both null: none was given
+  FieldPtr value[2];  ///< g_alpha or t_alpha; null for every membrane: none was given
 };
 
-/// The exact solution. Across the interface only the second derivatives and lambda may jump.
+/// The exact solution, index alpha of a membrane first. Across the interface only the second derivatives and lambda may jump.
 struct ExactMembranes {
   FieldPtr u[2];
   std::array<FieldPtr, 2> gradient[2];  ///< gradient[alpha][direction]
@@ -66,19 +68,25 @@ struct ExactMembranes {
 
 /// Two membranes in contact (docs/methods/membranes.md): find u_1, u_2, lambda with
 ///
-///     -mu_1 Lap u_1 - lambda = f_1,   -mu_2 Lap u_2 + lambda = f_2,   u_1 - u_2 >= 0,  lambda >= 0,  (u_1 - u_2) lambda = 0.
+///     -div(mu_1 grad u_1) - lambda = f_1,   -div(mu_2 grad u_2) + lambda = f_2,   u_1 - u_2 >= 0,  lambda >= 0,  (u_1 - u_2) lambda = 0.
 ///
-/// Index 0 is the upper membrane u_1, index 1 the lower one u_2.
+/// Index 0 is the upper membrane u_1, index 1 the lower one u_2. Or one membrane over an obstacle psi, u_2 = psi being given:
+///
+///     -div(mu grad u) - lambda = f,   u - psi >= 0,  lambda >= 0,  (u - psi) lambda = 0;
+///
+/// then only index 0 of the arrays is used, and the others are null.
 struct MembraneScene {
   std::string name;      ///< of the case, or "data"
   std::string sentence;  ///< what it shows
+  int count = 2;         ///< of the membranes: 2, or 1 over an obstacle
+  FieldPtr obstacle;     ///< psi; null for two membranes
   FieldPtr tension[2];   ///< mu_alpha; a varying one may be <= 0 somewhere: to be checked where it is evaluated
   FieldPtr force[2];     ///< f_alpha
   std::map<std::string, BoundaryCondition> boundary;  ///< by tag
   BoundaryCondition default_boundary;                 ///< of the tags that `boundary` does not name; its values may be null
   std::optional<ExactMembranes> exact;
   FieldPtr interface_level_set;  ///< zero on the curves across which data jump; may be null
-  FieldPtr initial[3];           ///< u_1, u_2, lambda from which a cold start begins; null: zero
+  FieldPtr initial[3];           ///< u_1, u_2, lambda from which a cold start begins (u_1 = u over an obstacle); null: zero
 };
 
 /// A catalogued case (block `scene`, parameter `case`).
@@ -90,7 +98,7 @@ struct Case {
 const std::vector<Case>& cases();
 
 /// The problem that the block describes. Throws InputError with one line "scene/<path>: <sentence>" per mistake (those of the schema's
-/// check), and for models that are no stationary membranes.
+/// check), and for models other than membranes and obstacle.
 MembraneScene membrane_scene(const SceneParams& params);
 
 }  // namespace thixis::scene

@@ -1,0 +1,20 @@
+#pragma once
+#include "membrane_problem.hpp"
+#include "thixis/complementarity/kkt.hpp"
+
+namespace thixis::models {
+
+/// A solution X with its membranes as functions.
+struct MembraneSolution {
+  const scene::MembraneScene& scene;
+  const method::Space& space;
+  const MembraneProblem& problem;
+  const Teuchos::RCP<algebra::Vector>* body;  ///< loads, before Dirichlet data are moved to the right
+  Fields x;
+  method::Coefficients u[2];
+};
+
+/// What the verifier judges, from forces cell by cell (docs/methods/membranes.md, 6). Collective.
+complementarity::KktData kkt_data(const MembraneSolution& solution);
+
+}  // namespace thixis::models

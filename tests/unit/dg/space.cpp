@@ -1,0 +1,265 @@
+/// Interior-penalty dG: what must hold exactly for polynomials of its degree, and the properties of its forms.
+#include "thixis/dg/space.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "thixis/algebra/solver.hpp"
+#include "thixis/algebra/tpetra.hpp"
+#include "thixis/mesh/build.hpp"
+
+namespace thixis::dg {
+namespace {
+
+using algebra::Vector;
+using mesh::Generator;
+using method::BoundaryTreatment;
+using method::BoundaryValues;
+using method::Variant;
+using scene::FieldPtr;
+
+struct Setting {
+  Generator generator;
+  int degree;
+  Variant variant;
+  BoundaryTreatment boundary;
+  method::Nodes nodes;
+};
+
+mesh::Hierarchy hierarchy(Generator generator, int refinements) {
+  mesh::MeshParams params;
+  params.generator = generator;
+  params.refinements = refinements;
+  params.cells_per_rank = 20;
+  if (generator == Generator::disk) params.rings = 3;
+  if (generator == Generator::file) params.file = "l_shape_22.msh";
+  return mesh::build(params, core::Comm(), MESH_FILES);
+}
+
+BoundaryValues everywhere(const mesh::Mesh& mesh, const FieldPtr& dirichlet, const FieldPtr& neumann = nullptr) {
+  return {std::vector<FieldPtr>(mesh.tags.size(), dirichlet), std::vector<FieldPtr>(mesh.tags.size(), neumann)};
+}
+
+/// u = (0.3 + x - y/2)^p + x - y.
+struct Polynomial {
+  int p;
+  static double inner(double x, double y) { return 0.3 + x - 0.5 * y; }
+  FieldPtr value() const {
+    return scene::formula([p = p](double x, double y) { return std::pow(inner(x, y), p) + x - y; });
+  }
+  double u_x(double x, double y) const { return p * std::pow(inner(x, y), p - 1) + 1; }
+  double u_y(double x, double y) const { return -0.5 * p * std::pow(inner(x, y), p - 1) - 1; }
+  double laplacian(double x, double y) const { return p < 2 ? 0 : 1.25 * p * (p - 1) * std::pow(inner(x, y), p - 2); }
+  method::Gradient gradient() const {
+    return {scene::formula([*this](double x, double y) { return u_x(x, y); }),
+            scene::formula([*this](double x, double y) { return u_y(x, y); })};
+  }
+};
+
+double distance(const Vector& v, const Vector& w) {
+  Vector d(v, Teuchos::Copy);
+  d.update(-1, w, 1);
+  return d.normInf();
+}
+
+Vector solved(const method::Space& V, const scene::Field& tension, const Vector& rhs) {
+  Vector u(V.map());
+  algebra::LinearParams params;
+  params.solver = algebra::SolverKind::direct;
+  algebra::Solver solver(params);
+  solver.set_matrix(V.stiffness(tension), 1, V.coordinates());
+  EXPECT_LT(solver.solve(rhs, u, {1e-13 * rhs.norm2(), 0, nullptr}).residual, 1e-10 * rhs.norm2());
+  return u;
+}
+
+class InteriorPenalty : public ::testing::TestWithParam<Setting> {
+ protected:
+  std::unique_ptr<method::Space> space(const mesh::Mesh& m, bool held = true) const {
+    method::MethodParams params;
+    params.name = method::MethodName::dg;
+    params.degree = GetParam().degree;
+    params.variant = GetParam().variant;
+    params.boundary = GetParam().boundary;
+    params.nodes = GetParam().nodes;
+    return make_space(m, {std::vector<bool>(m.tags.size(), held), nullptr, params});
+  }
+  mesh::Hierarchy levels = hierarchy(GetParam().generator, 1);
+  const mesh::Mesh& mesh = levels.finest();
+  const Polynomial u{GetParam().degree};
+};
+
+}  // namespace
+
+TEST_P(InteriorPenalty, patch_test_with_constant_and_varying_tension) {
+  const auto V = space(mesh);
+  const auto boundary = everywhere(mesh, u.value());
+  const auto lift = V->lift(boundary, 0);
+  Vector exact(V->map()), F(V->map()), held(V->map());
+  V->interpolate(*u.value(), 0, exact);
+  for (const bool varies : {false, true}) {  // mu = 2 or 2 + x
+    const auto tension = varies ? scene::formula([](double x, double) { return 2 + x; }) : scene::constant(2);
+    const auto force = scene::formula(
+        [=, u = u](double x, double y) { return varies ? -(2 + x) * u.laplacian(x, y) - u.u_x(x, y) : -2 * u.laplacian(x, y); });
+    V->load(*tension, *force, boundary, 0, F);
+    V->forces(*tension, lift, held);
+    F.update(-1, held, 1);
+    const Vector computed = solved(*V, *tension, F);
+    EXPECT_LT(distance(computed, exact), 1e-11);
+    EXPECT_LT(std::sqrt(V->energy_error(*tension, V->complete(computed, lift), u.gradient(), 0)), 1e-11);
+  }
+}
+
+TEST_P(InteriorPenalty, patch_test_with_a_part_of_the_boundary_under_traction) {
+  if (GetParam().generator != Generator::criss_cross) return;
+  method::MethodParams params;
+  params.degree = GetParam().degree;
+  params.variant = GetParam().variant;
+  params.boundary = GetParam().boundary;
+  const auto right = std::find(mesh.tags.begin(), mesh.tags.end(), "right") - mesh.tags.begin();
+  std::vector<bool> dirichlet(mesh.tags.size(), true);
+  dirichlet[right] = false;
+  const auto V = make_space(mesh, {dirichlet, nullptr, params});
+  BoundaryValues boundary = everywhere(mesh, u.value());
+  boundary.dirichlet[right] = nullptr;
+  boundary.neumann[right] = scene::formula([u = u](double x, double y) { return 2 * u.u_x(x, y); });
+  Vector exact(V->map()), F(V->map()), held(V->map());
+  V->interpolate(*u.value(), 0, exact);
+  V->load(*scene::constant(2), *scene::formula([u = u](double x, double y) { return -2 * u.laplacian(x, y); }), boundary, 0, F);
+  V->forces(*scene::constant(2), V->lift(boundary, 0), held);
+  F.update(-1, held, 1);
+  EXPECT_LT(distance(solved(*V, *scene::constant(2), F), exact), 1e-11);
+}
+
+/// The flux is continuous, the gradient is not: u = (x - 1/2)/mu, mu = 1 on the left half, 4 on the right one.
+TEST_P(InteriorPenalty, patch_test_with_a_tension_that_jumps_across_faces) {
+  if (GetParam().generator != Generator::criss_cross) return;
+  const auto V = space(mesh);
+  const auto tension = scene::formula([](double x, double) { return x < 0.5 ? 1.0 : 4.0; });
+  const auto broken = scene::formula([](double x, double) { return (x - 0.5) / (x < 0.5 ? 1 : 4); });
+  const auto boundary = everywhere(mesh, broken);
+  Vector exact(V->map()), F(V->map()), held(V->map());
+  V->interpolate(*broken, 0, exact);
+  V->load(*tension, *scene::constant(0), boundary, 0, F);
+  V->forces(*tension, V->lift(boundary, 0), held);
+  F.update(-1, held, 1);
+  EXPECT_LT(distance(solved(*V, *tension, F), exact), 1e-11);
+}
+
+TEST_P(InteriorPenalty, sipg_is_symmetric_and_both_are_positive_definite) {
+  const auto V = space(mesh);
+  EXPECT_EQ(V->symmetric(), GetParam().variant == Variant::sipg);
+  for (const auto& tension : {scene::constant(3), scene::formula([](double x, double y) { return 2 + x * y / 2; })}) {
+    const auto S = V->stiffness(*tension);
+    Vector y(V->map()), z(V->map()), Sy(V->map()), Sz(V->map());
+    for (int k = 0; k < 5; ++k) {
+      y.randomize();
+      z.randomize();
+      S->apply(y, Sy);
+      S->apply(z, Sz);
+      EXPECT_GT(y.dot(Sy), 0);
+      const double skew = std::abs(z.dot(Sy) - y.dot(Sz)), size = std::abs(z.dot(Sy)) + std::abs(y.dot(Sz));
+      if (V->symmetric()) EXPECT_LT(skew, 1e-10 * size);
+      else EXPECT_GT(skew, 1e-8 * size);
+    }
+  }
+}
+
+/// In v'Sv the consistency terms of NIPG cancel: what is left is the broken energy and the penalty, whatever its size.
+TEST_P(InteriorPenalty, nipg_is_coercive_for_any_penalty) {
+  if (GetParam().variant == Variant::sipg || GetParam().boundary == BoundaryTreatment::strong) return;
+  method::MethodParams params;
+  params.degree = GetParam().degree;
+  params.variant = Variant::nipg;
+  params.penalty = 1e-6;
+  const auto V = make_space(mesh, {std::vector<bool>(mesh.tags.size(), true), nullptr, params});
+  Vector y(V->map()), Sy(V->map());
+  y.randomize();
+  V->stiffness(*scene::constant(1))->apply(y, Sy);
+  const double energy = V->energy(*scene::constant(1), V->complete(y, V->lift(everywhere(mesh, scene::constant(0)), 0)));
+  EXPECT_GE(y.dot(Sy), (1 - 1e-10) * energy);
+}
+
+TEST_P(InteriorPenalty, forces_cell_by_cell_are_the_action_of_the_matrix) {
+  const auto V = space(mesh);
+  for (const auto& tension : {scene::constant(3), scene::formula([](double x, double y) { return 2 + x * y / 2; })}) {
+    Vector w(V->map()), y(V->map()), Sw(V->map());
+    w.randomize();
+    V->forces(*tension, V->complete(w, V->lift(everywhere(mesh, scene::constant(0)), 0)), y);
+    V->stiffness(*tension)->apply(w, Sw);
+    EXPECT_LT(distance(y, Sw), 1e-12 * Sw.normInf());
+  }
+}
+
+TEST_P(InteriorPenalty, without_dirichlet_data_constants_feel_no_force) {
+  const auto V = space(mesh, false);
+  Vector one(V->map()), y(V->map());
+  one.putScalar(1);
+  V->stiffness(*scene::constant(1))->apply(one, y);
+  EXPECT_LT(y.normInf(), 1e-11);
+}
+
+TEST_P(InteriorPenalty, the_multiplier_is_known_from_its_moments_cell_by_cell) {
+  const auto V = space(mesh, false);
+  Vector X3(V->points()), back(V->map()), exact(V->map());
+  V->interpolate_multiplier(*u.value(), 0, X3);
+  V->restrict_to_unknowns(V->multiplier(X3), back);
+  V->interpolate(*u.value(), 0, exact);
+  EXPECT_LT(distance(back, exact), 1e-10);
+}
+
+TEST_P(InteriorPenalty, prolongation_is_exact_for_polynomials_of_nested_meshes) {
+  if (GetParam().generator == Generator::disk) return;
+  const auto coarse = space(levels.levels[0]), fine = space(mesh);
+  Vector coarse_u(coarse->map()), values(fine->map()), exact(fine->map());
+  coarse->interpolate(*u.value(), 0, coarse_u);
+  fine->prolongate(*coarse, coarse->complete(coarse_u, coarse->lift(everywhere(levels.levels[0], u.value()), 0)), values);
+  fine->interpolate(*u.value(), 0, exact);
+  EXPECT_LT(distance(values, exact), 1e-12);
+}
+
+std::vector<Setting> settings() {
+  std::vector<Setting> all;
+  for (const auto generator : {Generator::criss_cross, Generator::disk, Generator::file})
+    for (int p = 1; p <= 4; ++p)
+      for (const auto variant : {Variant::sipg, Variant::nipg})
+        for (const auto boundary : {BoundaryTreatment::weak, BoundaryTreatment::strong})
+          for (const auto nodes : {method::Nodes::gauss_lobatto, method::Nodes::bernstein})
+            all.push_back({generator, p, variant, boundary, nodes});
+  return all;
+}
+std::string setting_name(const ::testing::TestParamInfo<Setting>& info) {
+  const Setting& s = info.param;
+  const char* const generators[] = {"criss_cross", "rectangle", "disk", "gmsh"};
+  return std::string(generators[static_cast<int>(s.generator)]) + "_P" + std::to_string(s.degree) +
+         (s.variant == Variant::sipg ? "_sipg" : "_nipg") + (s.boundary == BoundaryTreatment::weak ? "_weak" : "_strong") +
+         (s.nodes == method::Nodes::bernstein ? "_bernstein" : "_lagrange");
+}
+INSTANTIATE_TEST_SUITE_P(Dg, InteriorPenalty, ::testing::ValuesIn(settings()), setting_name);
+
+TEST(Poisson, converges_with_order_p) {
+  const double pi = std::acos(-1.0);
+  const method::Gradient exact = {scene::formula([pi](double x, double y) { return pi * std::cos(pi * x) * std::sin(pi * y); }),
+                                  scene::formula([pi](double x, double y) { return pi * std::sin(pi * x) * std::cos(pi * y); })};
+  const auto f = scene::formula([pi](double x, double y) { return 2 * pi * pi * std::sin(pi * x) * std::sin(pi * y); });
+  const auto levels = hierarchy(Generator::criss_cross, 3);
+  for (int p = 1; p <= 4; ++p)
+    for (const auto variant : {Variant::sipg, Variant::nipg}) {
+      double error[2];
+      for (int k = 0; k < 2; ++k) {
+        const mesh::Mesh& mesh = levels.levels[2 + k];
+        method::MethodParams params;
+        params.degree = p;
+        params.variant = variant;
+        const auto V = make_space(mesh, {std::vector<bool>(mesh.tags.size(), true), nullptr, params});
+        const auto zero = everywhere(mesh, scene::constant(0));
+        Vector F(V->map());
+        V->load(*scene::constant(1), *f, zero, 0, F);
+        error[k] =
+            std::sqrt(V->energy_error(*scene::constant(1), V->complete(solved(*V, *scene::constant(1), F), V->lift(zero, 0)), exact, 0));
+      }
+      EXPECT_NEAR(std::log2(error[0] / error[1]), p, 0.05) << "p = " << p;
+    }
+}
+
+}  // namespace thixis::dg
