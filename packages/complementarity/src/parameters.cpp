@@ -27,15 +27,16 @@ const core::Schema<NewtonParams>& NewtonParams::schema() {
                   "residuals.")
           .choice("ties", &NewtonParams::ties, {{"contact", Ties::contact}, {"free", Ties::free}},
                   "What becomes of points where gap and scaled multiplier are equal.")
-          .parameter("tie tolerance", &NewtonParams::tie_tolerance, core::between(0, 1e-3),
-                     "Gap and scaled multiplier count as equal up to this part of the largest of them at any point: where a basis function has no "
-                     "mean, both vanish up to round-off.")
+          .parameter(
+              "tie tolerance", &NewtonParams::tie_tolerance, core::between(0, 1e-3),
+              "Gap and scaled multiplier count as equal up to this part of the largest of them at any point: where a basis function has no "
+              "mean, both vanish up to round-off.")
           .choice("scaling", &NewtonParams::scaling, {{"none", Scaling::none}, {"physical", Scaling::physical}},
                   "Compare the gap with the multiplier itself, or with the multiplier scaled to a length.")
-          .parameter(
-              "sweeps", &NewtonParams::sweeps, core::at_least(0),
-              "Sweeps of nonlinear smoothing after each undamped step of c-function min, for fem of degree 1; if not given, 10 with nested "
-              "starts of that method, otherwise none, which is plain Newton-min.");
+          .parameter("sweeps", &NewtonParams::sweeps, core::at_least(0),
+                     "Sweeps of nonlinear smoothing after each undamped step of c-function min, for symmetric methods; if not given, 10 "
+                     "with nested "
+                     "starts, otherwise none, which is plain Newton-min.");
   return s;
 }
 

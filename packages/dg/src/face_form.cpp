@@ -17,7 +17,7 @@ struct FaceMatrices {
   Traces traces;
   Penalty penalty;
   LocalIndex first;
-  Kokkos::View<const double**, Kokkos::LayoutRight> mu;
+  Tensions mu;
   Matrices A;  ///< out, overwritten
 
   KOKKOS_FUNCTION void operator()(int e) const {
@@ -35,14 +35,16 @@ struct FaceMatrices {
       for (int a = 0; a < 3; ++a) slope[s][a] = share * (F.normal[0] * K.gradient[a][0] + F.normal[1] * K.gradient[a][1]);
     }
     for (int q = 0; q < traces.t.extent_int(0); ++q) {
-      const double weight = traces.weight(q) * F.length * mu(e, q), stiff = weight * penalty.eta / F.length;
+      const double weight = traces.weight(q) * F.length;
+      const double mu_F = mu(e, q, 0) > mu(e, q, 1) ? mu(e, q, 0) : mu(e, q, 1);
+      const double stiff = weight * mu_F * penalty.eta / F.length;
       double mean[2 * most], jump[2 * most];
       for (int s = 0; s < 2; ++s) {
         const LocalIndex side = faces.side(k, s);
         for (int i = 0; i < n && faces.cell(k, s) >= 0; ++i) {
           jump[s * n + i] = (s == 0 ? 1 : -1) * traces.value(side, q, i);
           mean[s * n + i] = 0;
-          for (int a = 0; a < 3; ++a) mean[s * n + i] += slope[s][a] * traces.derivative(side, q, i, a);
+          for (int a = 0; a < 3; ++a) mean[s * n + i] += mu(e, q, s) * slope[s][a] * traces.derivative(side, q, i, a);
         }
       }
       // the trace of most functions vanishes on the face
@@ -116,7 +118,7 @@ Traces traces(const reference::CellBasis& basis, int order) {
 }
 
 void face_matrices(const mesh::Mesh& mesh, const Faces& faces, const Traces& traces, const Penalty& penalty, LocalIndex first,
-                   const Kokkos::View<const double**, Kokkos::LayoutRight>& mu, const Matrices& A) {
+                   const Tensions& mu, const Matrices& A) {
   Kokkos::parallel_for("thixis::dg::face_matrices", Kokkos::RangePolicy<>(0, A.extent_int(0)),
                        FaceMatrices{mesh.coordinates, mesh.cell_vertices, mesh.face_vertices, faces, traces, penalty, first, mu, A});
 }

@@ -28,17 +28,20 @@ struct Faces {
   View<const LocalIndex*[2]> cell, side;  ///< side: index into Traces, seen from the lower vertex id to the higher one
 };
 
+/// (e, q, s): trace of the tension from K+ and K- at the points of the faces; on the boundary both are that of the one cell.
+using Tensions = Kokkos::View<double** [2], Kokkos::LayoutRight>;
+
 struct Penalty {
   double theta;  ///< 1 SIPG, -1 NIPG
-  double eta;    ///< eta p²: the factor of mu/|F|
+  double eta;    ///< eta p²: the factor of mu_F/|F|
 };
 
 /// A(e, i, j), i, j < 2n, on the faces first + e: the functions of K+ come first,
 ///
-///     - ({mu grad psi_j}·n, [psi_i])_F - theta ({mu grad psi_i}·n, [psi_j])_F + (eta p²/|F|) (mu [psi_j], [psi_i])_F,
+///     - ({mu grad psi_j}·n, [psi_i])_F - theta ({mu grad psi_i}·n, [psi_j])_F + (eta p²/|F|) (mu_F [psi_j], [psi_i])_F,
 ///
-/// mean and jump being the trace itself on the boundary. mu(e, q): tension at the points of the faces.
+/// mean and jump being the trace itself on the boundary, mu_F the larger one of the two traces of the tension mu.
 void face_matrices(const mesh::Mesh& mesh, const Faces& faces, const Traces& traces, const Penalty& penalty, LocalIndex first,
-                   const Kokkos::View<const double**, Kokkos::LayoutRight>& mu, const Matrices& A);
+                   const Tensions& mu, const Matrices& A);
 
 }  // namespace thixis::dg

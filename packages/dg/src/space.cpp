@@ -62,7 +62,7 @@ method::Structure structure(const mesh::Mesh& mesh, const method::SpaceOptions& 
   }
   Kokkos::deep_copy(s.element_entries, entries);
 
-  // rows of the owned cells couple across their faces; a cell without such a face with itself
+  // rows of the owned cells couple across their faces
   std::vector<LocalIndex> faces;
   for (LocalIndex F = 0; F < mesh.faces; ++F)
     if ((host.face_cells(F, 0) >= 0 && host.face_cells(F, 0) < mesh.owned_cells) ||
@@ -180,30 +180,42 @@ class Space final : public method::PolynomialSpace {
   LocalIndex faces_per_block() const { return std::min(method::cells_per_block(2 * basis_.size()), faces_.face.extent_int(0)); }
 
   /// f(first, A) for blocks of faces. Collective, since the tension may be refused.
-  template <class F>
-  void over_faces(const scene::Field& tension, F f) const {
+  template <class Action>
+  void over_faces(const scene::Field& tension, Action f) const {
     const int n = basis_.size();
     const Traces at = traces(basis_, tension.constant() ? 2 * basis_.degree() : params_.order());
     const LocalIndex count = faces_.face.extent_int(0), most = faces_per_block();
     const Matrices A("thixis::dg::face_matrices", most, 2 * n, 2 * n);
-    const Kokkos::View<double**, Kokkos::LayoutRight> mu("thixis::dg::face_tension", most, at.points());
-    const auto mu_host = Kokkos::create_mirror_view(mu);
-    const auto face = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), faces_.face);
-    std::vector<double> x(tension.constant() ? 0 : most * at.points()), y(x.size());
+    const Tensions mu("thixis::dg::face_tension", most, at.points());
     if (const double* value = tension.constant()) Kokkos::deep_copy(mu, *value);
     mesh_.comm.together([&] {
       for (LocalIndex first = 0; first < count; first += most) {
         const LocalIndex length = std::min(most, count - first);
-        if (!tension.constant()) {
-          for (LocalIndex e = 0; e < length; ++e) place(face(first + e), at, &x[e * at.points()], &y[e * at.points()]);
-          tension.evaluate({static_cast<std::size_t>(length) * at.points(), x.data(), y.data()}, 0, mu_host.data());
-          Kokkos::deep_copy(mu, mu_host);
-        }
+        if (!tension.constant()) evaluate_traces(tension, at, first, length, mu);
         const Matrices block = Kokkos::subview(A, std::pair(0, length), Kokkos::ALL, Kokkos::ALL);
         face_matrices(mesh_, faces_, at, penalty_, first, mu, block);
         f(first, block);
       }
     });
+  }
+
+  /// mu(e, q, s): trace from K+ and K- on the faces first + e.
+  void evaluate_traces(const scene::Field& tension, const Traces& at, LocalIndex first, LocalIndex length, const Tensions& mu) const {
+    const auto face = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), faces_.face);
+    const auto cell = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), faces_.cell);
+    const auto host = Kokkos::create_mirror_view(mu);
+    const int points = at.points();
+    std::vector<double> x(length * points), y(x.size()), values(x.size());
+    for (int s = 0; s < 2; ++s) {
+      for (LocalIndex e = 0; e < length; ++e) {
+        const LocalIndex k = first + e, K = cell(k, cell(k, s) >= 0 ? s : 1 - s);
+        place_inside(K, face(k), at, &x[e * points], &y[e * points]);
+      }
+      tension.evaluate({x.size(), x.data(), y.data()}, 0, values.data());
+      for (LocalIndex e = 0; e < length; ++e)
+        for (int q = 0; q < points; ++q) host(e, q, s) = values[e * points + q];
+    }
+    Kokkos::deep_copy(mu, host);
   }
 
   /// Physical points of the rule on a face, from its lower to its higher vertex id.
@@ -212,6 +224,19 @@ class Space final : public method::PolynomialSpace {
     for (int q = 0; q < at.points(); ++q) {
       x[q] = (1 - at.t(q)) * host_.coordinates(a, 0) + at.t(q) * host_.coordinates(b, 0);
       y[q] = (1 - at.t(q)) * host_.coordinates(a, 1) + at.t(q) * host_.coordinates(b, 1);
+    }
+  }
+
+  /// The same, but so little inside K that a function which jumps across F shows its trace from K.
+  void place_inside(LocalIndex K, LocalIndex F, const Traces& at, double* x, double* y) const {
+    constexpr double inside = 1e-10;
+    double centroid[2] = {0, 0};
+    for (int a = 0; a < 3; ++a)
+      for (int d = 0; d < 2; ++d) centroid[d] += host_.coordinates(host_.cell_vertices(K, a), d) / 3;
+    place(F, at, x, y);
+    for (int q = 0; q < at.points(); ++q) {
+      x[q] += inside * (centroid[0] - x[q]);
+      y[q] += inside * (centroid[1] - y[q]);
     }
   }
 
@@ -227,6 +252,8 @@ class Space final : public method::PolynomialSpace {
     std::vector<double> x(faces.size() * points), y(x.size()), g(x.size()), mu(x.size());
     for (std::size_t k = 0; k < faces.size(); ++k) place(faces[k], at, &x[k * points], &y[k * points]);
     dirichlet.evaluate({x.size(), x.data(), y.data()}, t, g.data());
+    for (std::size_t k = 0; k < faces.size(); ++k)
+      place_inside(mesh::first_cell(host_.face_cells, faces[k]), faces[k], at, &x[k * points], &y[k * points]);
     tension.evaluate({x.size(), x.data(), y.data()}, 0, mu.data());
     for (std::size_t k = 0; k < faces.size(); ++k) {
       const LocalIndex F = faces[k], K = mesh::first_cell(host_.face_cells, F);

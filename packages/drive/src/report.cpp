@@ -188,8 +188,8 @@ void check_served(const RunParams& params) {
     mistakes.push_back(
         fmt::format("method/condensation: {} of degree {} has no unknowns that belong to one cell alone; write false or leave it out.",
                     method::to_text(method.name), method.degree));
-  if (params.newton.sweeps.value_or(0) > 0 && !(fem && method.degree == 1))
-    mistakes.push_back("newton/sweeps: smoothing is there for fem of degree 1 only; write 0 or leave it out.");
+  if (params.newton.sweeps.value_or(0) > 0 && !method.symmetric())
+    mistakes.push_back("newton/sweeps: smoothing needs a symmetric form, which nipg is not; write 0, or method/variant = sipg.");
 
   const algebra::LinearParams& linear = params.linear;
   const bool cg = linear.solver == algebra::SolverKind::cg;

@@ -44,7 +44,7 @@ Outcome solve_stationary(const models::Model& model, const mesh::Hierarchy& hier
   const int first = restart ? at.level : nested && !outcome.not_wanted ? 0 : finest;
 
   complementarity::NewtonParams newton = params.newton;
-  if (!newton.sweeps) newton.sweeps = nested && params.method.name == method::MethodName::fem && params.method.degree == 1 ? 10 : 0;
+  if (!newton.sweeps) newton.sweeps = nested && params.method.symmetric() ? 10 : 0;
 
   for (int level = first; level <= finest; ++level) {
     auto discretization = model.discretize(hierarchy.levels[level]);

@@ -116,13 +116,14 @@ complementarity::KktData kkt_data(const MembraneSolution& solution) {
                   largest_tension(*scene.tension[alpha], space.mesh()) * height / (domain.width * domain.width) * per_area});
     size = std::max(size, height);
   }
-  Vector inverse(membranes.points());
-  inverse.reciprocal(D);
-  data.smallest_pairing = 1 / inverse.normInf();
   if (!(data.multiplier_scale > 0)) data.multiplier_scale = 1;
   // ... and a gap: the heights that are there, and what such a force opens at one point
   Vector s(membranes.points());
   problem.scaling(s);
+  Vector inverse_D(membranes.points()), inverse_s(membranes.points());
+  inverse_D.reciprocal(D);
+  inverse_s.reciprocal(s);
+  data.smallest_weight = 1 / std::max(inverse_D.normInf(), inverse_s.normInf());
   data.gap_scale = std::max(size, s.normInf() * data.multiplier_scale);
   if (!(data.gap_scale > 0)) data.gap_scale = 1;
   return data;

@@ -108,7 +108,8 @@ algebra::LinearReport MembraneProblem::solve(const Vector& R, Vector& dX, const 
 
 void MembraneProblem::relax(Vector& X, int sweeps) const {
   Fields x(membranes_, X);
-  projected_jacobi(membranes_, sweeps, x);
+  if (!smoother_) smoother_ = std::make_unique<ProjectedJacobi>(membranes_);
+  (*smoother_)(sweeps, x);
   join(x, X);
 }
 

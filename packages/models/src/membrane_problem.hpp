@@ -1,5 +1,6 @@
 #pragma once
 #include "linearized_system.hpp"
+#include "projected_jacobi.hpp"
 #include "thixis/complementarity/problem.hpp"
 
 namespace thixis::models {
@@ -43,8 +44,9 @@ class MembraneProblem final : public complementarity::Problem {
   algebra::LinearParams params_;
   Teuchos::RCP<const algebra::MultiVector> coordinates_;
   algebra::MapPtr map_;
-  GlobalIndex interior_ = 0;                  ///< unknowns of each membrane that condensation eliminates
-  std::unique_ptr<LinearizedSystem> system_;  ///< made at the first linearization: a run that only counts pays nothing for it
+  GlobalIndex interior_ = 0;                           ///< unknowns of each membrane that condensation eliminates
+  mutable std::unique_ptr<ProjectedJacobi> smoother_;  ///< made where smoothing is asked for
+  std::unique_ptr<LinearizedSystem> system_;           ///< made at the first linearization: a run that only counts pays nothing for it
 };
 
 }  // namespace thixis::models

@@ -1,13 +1,35 @@
 #include "projected_jacobi.hpp"
 
+#include <algorithm>
+
 namespace thixis::models {
 namespace {
 
-constexpr double damping = 2.0 / 3;
+/// Estimate of the largest eigenvalue of diag(S)^{-1} S, a little too small.
+double largest_eigenvalue(const algebra::Matrix& S) {
+  algebra::Vector diagonal(S.getRowMap()), inverse(S.getRowMap()), v(S.getRowMap()), w(S.getRowMap());
+  S.getLocalDiagCopy(diagonal);
+  inverse.reciprocal(diagonal);
+  {  // anything rough
+    const auto out = algebra::host_overwrite(v);
+    for (std::size_t l = 0; l < out.extent(0); ++l) out(l) = l % 2 == 0 ? 1 : -0.7;
+  }
+  double value = 0;
+  for (int k = 0; k < 12; ++k) {
+    const double length = v.norm2();
+    if (!(length > 0)) return 0;
+    v.scale(1 / length);
+    S.apply(v, w);
+    v.elementWiseMultiply(1, inverse, w, 0);
+    value = v.norm2();
+  }
+  return value;
+}
 
 template <class In, class Out>
 struct Sweep {
   int count;
+  double damping;
   algebra::Matrix::local_matrix_device_type S[2];
   double factor[2];
   In u;  ///< a column for each membrane, ghosts included
@@ -28,6 +50,10 @@ struct Sweep {
       }
       balanced[alpha] = u(l, alpha) + damping * force / diagonal[alpha];
     }
+    if (l >= lambda.extent_int(0)) {  // no contact point
+      for (int alpha = 0; alpha < count; ++alpha) x(l, alpha) = balanced[alpha];
+      return;
+    }
     const double below = count == 2 ? balanced[1] : psi(l, 0);
     const bool contact = balanced[0] <= below;
     const double together = count == 2 ? (diagonal[0] * balanced[0] + diagonal[1] * below) / (diagonal[0] + diagonal[1]) : below;
@@ -39,31 +65,38 @@ struct Sweep {
 
 }  // namespace
 
-void projected_jacobi(const MembraneOperator& membranes, int sweeps, Fields& x) {
-  algebra::MultiVector ghosted(membranes.matrix[0]->getColMap(), membranes.count);
-  const auto import = membranes.matrix[0]->getGraph()->getImporter();
+ProjectedJacobi::ProjectedJacobi(const MembraneOperator& membranes) : membranes_(membranes) {
+  double largest = largest_eigenvalue(*membranes.matrix[0]);
+  if (!membranes.shared()) largest = std::max(largest, largest_eigenvalue(*membranes.matrix[1]));
+  damping_ = largest > 2 ? 4 / (3 * largest) : 2.0 / 3;
+}
+
+void ProjectedJacobi::operator()(int sweeps, Fields& x) const {
+  algebra::MultiVector ghosted(membranes_.matrix[0]->getColMap(), membranes_.count);
+  const auto import = membranes_.matrix[0]->getGraph()->getImporter();
   const auto read = [](const algebra::MultiVector& v) { return v.getLocalViewDevice(Tpetra::Access::ReadOnly); };
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     if (import.is_null()) ghosted.assign(x.u);
     else ghosted.doImport(x.u, *import, Tpetra::INSERT);
     const auto u = read(ghosted);
     const auto out = x.u.getLocalViewDevice(Tpetra::Access::ReadWrite);
-    Sweep<std::decay_t<decltype(u)>, std::decay_t<decltype(out)>> kernel{membranes.count,
+    Sweep<std::decay_t<decltype(u)>, std::decay_t<decltype(out)>> kernel{membranes_.count,
+                                                                         damping_,
                                                                          {},
-                                                                         {membranes.factor[0], membranes.factor[1]},
+                                                                         {membranes_.factor[0], membranes_.factor[1]},
                                                                          u,
                                                                          {},
-                                                                         read(*membranes.pairing),
+                                                                         read(*membranes_.pairing),
                                                                          {},
                                                                          out,
                                                                          x.lambda.getLocalViewDevice(Tpetra::Access::OverwriteAll)};
-    for (int alpha = 0; alpha < membranes.count; ++alpha) {
-      kernel.S[alpha] = membranes.matrix[alpha]->getLocalMatrixDevice();
-      kernel.F[alpha] = read(*membranes.load[alpha]);
+    for (int alpha = 0; alpha < membranes_.count; ++alpha) {
+      kernel.S[alpha] = membranes_.matrix[alpha]->getLocalMatrixDevice();
+      kernel.F[alpha] = read(*membranes_.load[alpha]);
     }
-    if (membranes.count == 1) kernel.psi = read(*membranes.obstacle);
+    if (membranes_.count == 1) kernel.psi = read(*membranes_.obstacle);
     Kokkos::parallel_for("thixis::models::projected_jacobi",
-                         Kokkos::RangePolicy<algebra::Vector::execution_space>(0, kernel.lambda.extent_int(0)), kernel);
+                         Kokkos::RangePolicy<algebra::Vector::execution_space>(0, kernel.x.extent_int(0)), kernel);
   }
 }
 

@@ -131,6 +131,21 @@ TEST_P(InteriorPenalty, patch_test_with_a_part_of_the_boundary_under_traction) {
   EXPECT_LT(distance(solved(*V, *scene::constant(2), F), exact), 1e-11);
 }
 
+/// The flux is continuous, the gradient is not: u = (x - 1/2)/mu, mu = 1 on the left half, 4 on the right one.
+TEST_P(InteriorPenalty, patch_test_with_a_tension_that_jumps_across_faces) {
+  if (GetParam().generator != Generator::criss_cross) return;
+  const auto V = space(mesh);
+  const auto tension = scene::formula([](double x, double) { return x < 0.5 ? 1.0 : 4.0; });
+  const auto broken = scene::formula([](double x, double) { return (x - 0.5) / (x < 0.5 ? 1 : 4); });
+  const auto boundary = everywhere(mesh, broken);
+  Vector exact(V->map()), F(V->map()), held(V->map());
+  V->interpolate(*broken, 0, exact);
+  V->load(*tension, *scene::constant(0), boundary, 0, F);
+  V->forces(*tension, V->lift(boundary, 0), held);
+  F.update(-1, held, 1);
+  EXPECT_LT(distance(solved(*V, *tension, F), exact), 1e-11);
+}
+
 TEST_P(InteriorPenalty, sipg_is_symmetric_and_both_are_positive_definite) {
   const auto V = space(mesh);
   EXPECT_EQ(V->symmetric(), GetParam().variant == Variant::sipg);

@@ -18,12 +18,12 @@ struct KktData {
   double unbalanced = 0;                        ///< worst |residual| of the equations without a contact point, in the units of λ_α
   double between_nodes = 0;                     ///< worst violation max(-g, 0) between the points
   double gap_scale = 1;                         ///< > 0: the size of a gap that matters, e.g. max |u|
-  double smallest_pairing = 1;                  ///< > 0: min_l D_l, λ_α,l = (residual of row l) / D_l
-  double multiplier_scale = 1;                  ///< > 0: the size of a multiplier that matters, e.g. max |F_l|
+  double smallest_weight = 1;   ///< > 0: smallest factor of a multiplier in the residual: D_l in the equations, s_l in the rows of contact
+  double multiplier_scale = 1;  ///< > 0: the size of a multiplier that matters, e.g. max |F_l|
 
-  /// What a residual r of the equations allows at one point, r / (smallest_pairing · multiplier_scale), but at least 1e-6 and at most 1e-3:
+  /// What a residual r of the equations allows at one point, r / (smallest_weight · multiplier_scale), but at least 1e-6 and at most 1e-3:
   /// no tolerance of a solver makes a wrong answer right.
-  double allowed(double r) const { return std::min(std::max(1e-6, r / (smallest_pairing * multiplier_scale)), 1e-3); }
+  double allowed(double r) const { return std::min(std::max(1e-6, r / (smallest_weight * multiplier_scale)), 1e-3); }
 };
 
 /// How far data are from g >= 0, λ >= 0, g λ = 0, λ in equilibrium with every body: relative, >= 0, maxima over all ranks; infinite where

@@ -10,10 +10,10 @@ namespace thixis::method {
 
 /// The coefficients of a space on this rank, one entry each, in the numbering of Coefficients: those of its own and of the patch cells.
 struct Entries {
-  std::vector<GlobalIndex> id;                 ///< identity over all ranks (Space::unknown_ids)
-  std::vector<int> owner;                      ///< rank
-  std::vector<LocalIndex> held;                ///< tag of the Dirichlet data that fix it, -1 for an unknown; what the owner says counts
-  std::vector<std::array<double, 2>> point;    ///< its place
+  std::vector<GlobalIndex> id;               ///< identity over all ranks (Space::unknown_ids)
+  std::vector<int> owner;                    ///< rank
+  std::vector<LocalIndex> held;              ///< tag of the Dirichlet data that fix it, -1 for an unknown; what the owner says counts
+  std::vector<std::array<double, 2>> point;  ///< its place
   LocalIndex size() const { return static_cast<LocalIndex>(id.size()); }
   void reserve(std::size_t count);
   void add(GlobalIndex id, int owner, LocalIndex held, std::array<double, 2> point);

@@ -18,7 +18,7 @@ struct Structure {
   Kokkos::View<LocalIndex**, Kokkos::LayoutRight> element_entries;
   /// (element, i) -> entry: couplings of a(.,.) where they are more than those of the cells; empty: element_entries. -1: none.
   Kokkos::View<LocalIndex**, Kokkos::LayoutRight> coupled_entries;
-  LocalIndex cell_entries = 0;  ///< entries that are coefficients of the cells' polynomials, and contact points: the first ones
+  LocalIndex cell_entries = 0;          ///< entries that are coefficients of the cells' polynomials, and contact points: the first ones
   GlobalIndex global_cell_entries = 0;  ///< on all ranks, held ones included: their ids are 0 … global_cell_entries - 1
   int interior = 0;                     ///< of each element, for condensation: its first unknowns
 };
@@ -116,7 +116,8 @@ class PolynomialSpace : public Space {
 /// The family of nodes that the deck asks for.
 reference::Family family(Nodes nodes);
 
-/// Tag of the Dirichlet data on each face: its own tag where that is held, -1 elsewhere. For vertices the lowest among their faces on this rank.
+/// Tag of the Dirichlet data on each face: its own tag where that is held, -1 elsewhere. For vertices the lowest among their faces on this
+/// rank.
 std::vector<LocalIndex> held_faces(const mesh::Mesh& mesh, const std::vector<bool>& dirichlet);
 std::vector<LocalIndex> held_vertices(const mesh::Mesh& mesh, const std::vector<bool>& dirichlet);
 

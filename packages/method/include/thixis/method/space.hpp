@@ -40,6 +40,7 @@ struct MethodParams {
   StabilizationLength stabilization_length = StabilizationLength::face;
   static const core::Schema<MethodParams>& schema();
   int order() const { return quadrature_order > 0 ? quadrature_order : 2 * degree + 4; }
+  bool symmetric() const { return name != MethodName::dg || variant == Variant::sipg; }
   /// Unknowns inside a cell are eliminated from the linear systems.
   bool condensed() const { return condensation.value_or(name == MethodName::hho); }
 };
@@ -95,8 +96,8 @@ class Space {
   /// S_lm = a(psi_m, psi_l) on the unknowns.
   virtual algebra::MatrixPtr stiffness(const scene::Field& tension) const = 0;
 
-  /// For condensation: columns of graph() of the unknowns of each patch cell, -1 for Dirichlet values; the first interior() of them belong to
-  /// this cell alone.
+  /// For condensation: columns of graph() of the unknowns of each patch cell, -1 for Dirichlet values; the first interior() of them belong
+  /// to this cell alone.
   virtual const ElementUnknowns& elements() const = 0;
   virtual int interior() const = 0;
   /// The part of a(.,.) that is a sum over cells: all of it where interior() > 0.
@@ -133,7 +134,8 @@ class Space {
   /// max(max(obstacle - u_h, 0)) over all points of all cells, to a few per cent (a lattice of 8p points a side). `obstacle` null: zero.
   virtual double penetration(const Coefficients& u, const scene::Field* obstacle, double t) const = 0;
 
-  /// For output. `shown`: u_h at the points of the display; `coefficients_shown`: the coefficient that belongs to each point. Ghosts may be 0.
+  /// For output. `shown`: u_h at the points of the display; `coefficients_shown`: the coefficient that belongs to each point. Ghosts may be
+  /// 0.
   virtual output::Grid display() const = 0;  ///< triangles with one point per coefficient of the cells' polynomials
   virtual std::vector<double> shown(const Coefficients& u) const = 0;
   virtual std::vector<double> coefficients_shown(const Coefficients& u) const = 0;
