@@ -26,6 +26,8 @@ drive::RunParams deck(const std::string& name, int refinements, const method::Me
 double radial_error(int level, const method::MethodParams& method) {
   auto params = obstacle("radial obstacle", level, method);
   params.mesh.generator = mesh::Generator::disk;
+  params.linear.solver = method.symmetric() ? algebra::SolverKind::cg : algebra::SolverKind::gmres;
+  params.linear.preconditioner = algebra::PreconditionerKind::ilu;
   const Solved run = solve(params);
   EXPECT_TRUE(run.outcome.solved) << run.outcome.finest.why;
   EXPECT_GT(run.outcome.finest.active, 0);
@@ -35,14 +37,14 @@ double radial_error(int level, const method::MethodParams& method) {
 
 }  // namespace
 
-/// As for the two membranes whose multiplier jumps: order p up to 1.5, the regularity of the solution.
+/// As for the two membranes whose multiplier jumps: order p up to 1.5, the regularity of the solution. From mesh to mesh the order varies
+/// with the way the circle cuts the cells; from T_0 to T_3 that evens out.
 TEST(Obstacle, with_a_known_radial_solution_has_the_orders_of_a_multiplier_that_jumps) {
   for (int p = 1; p <= 4; ++p)
     for (const auto& [name, method] : all_methods(p)) {
-      const int finest = p < 3 ? 3 : 2;
-      const double rate = order(radial_error(1, method), radial_error(finest, method)) / (finest - 1);
-      EXPECT_GE(rate, p == 1 ? 0.93 : 1.15) << name;
-      EXPECT_LE(rate, p == 1 ? 1.2 : 2.1) << name;
+      const double rate = order(radial_error(0, method), radial_error(3, method)) / 3;
+      EXPECT_GE(rate, p == 1 ? 0.93 : 1.35) << name;
+      EXPECT_LE(rate, p == 1 ? 1.1 : 2) << name;
     }
 }
 
