@@ -39,8 +39,9 @@ double radial_error(int level, const method::MethodParams& method) {
 TEST(Obstacle, with_a_known_radial_solution_has_the_orders_of_a_multiplier_that_jumps) {
   for (int p = 1; p <= 4; ++p)
     for (const auto& [name, method] : all_methods(p)) {
-      const int finest = p < 3 ? 3 : 2;
-      const double rate = order(radial_error(1, method), radial_error(finest, method)) / (finest - 1);
+      // over several levels: how the edge of contact cuts the cells makes single steps uneven
+      const int finest = method.name == method::MethodName::dg && p >= 3 ? 2 : 3;
+      const double rate = order(radial_error(0, method), radial_error(finest, method)) / finest;
       EXPECT_GE(rate, p == 1 ? 0.93 : 1.15) << name;
       EXPECT_LE(rate, p == 1 ? 1.2 : 2.1) << name;
     }
