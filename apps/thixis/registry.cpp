@@ -4,6 +4,7 @@
 #include "thixis/core/error.hpp"
 #include "thixis/dg/space.hpp"
 #include "thixis/fem/lagrange_space.hpp"
+#include "thixis/hho/space.hpp"
 #include "thixis/models/membranes.hpp"
 #include "thixis/scene/membranes.hpp"
 
@@ -16,8 +17,10 @@ method::SpaceFactory make_method(const method::MethodParams& method) {
       return fem::make_lagrange_space;
     case method::MethodName::dg:
       return dg::make_space;
+    case method::MethodName::hho:
+      return hho::make_space;
     default:
-      throw core::InputError("method/name: this version serves fem and dg; write one of them.");
+      throw core::InputError("method/name: this version serves no scene by " + method::to_text(method.name) + "; write fem, dg or hho.");
   }
 }
 

@@ -58,7 +58,7 @@ struct Tests {
     const bool full_min = steps == Steps::full && params.c_function == CFunction::min;
     const bool damped_to_the_end = params.c_function != CFunction::min && params.globalization == Globalization::line_search;
     all->addStatusTest(finite);
-    add(small, new SmallResidual(system));
+    add(small, new SmallResidual(system, full_min));
     if (full_min) add(settled, new SettledContactSet(system));
     if (full_min) add(cycle, new Cycle(system));
     if (steps == Steps::full && params.globalization == Globalization::hybrid) add(growing, new Growing);
@@ -140,7 +140,8 @@ class Run {
     ++report_.steps;
     changed_ = now.active.changed(before.active);
     if (observer_.step)
-      observer_.step({report_.steps, system_.linear_iterations() - iterations, now.active.count(), changed_, now.residual, now.equations, now.complementarity, solver.getStepSize(), elapsed.count()});
+      observer_.step({report_.steps, system_.linear_iterations() - iterations, now.active.count(), changed_, now.residual, now.equations,
+                      now.complementarity, solver.getStepSize(), elapsed.count()});
     if (observer_.iterate) observer_.iterate(dynamic_cast<const NoxGroup&>(solver.getSolutionGroup()).X());
     return status;
   }
@@ -181,7 +182,8 @@ class Run {
     report_.residual_equations = last_.equations;
     report_.residual_complementarity = last_.complementarity;
     report_.active = last_.active.count();
-    report_.settled = !(report_.converged && params_.c_function == CFunction::min && changed_ > 0);
+    const bool still_changing = changed_ > 0 && last_.residual > 2 * system_.left();
+    report_.settled = !(report_.converged && params_.c_function == CFunction::min && still_changing);
     report_.active_set = last_.active;
     return report_;
   }

@@ -112,6 +112,13 @@ void join(const MultiVector& columns, Vector& x) {
       });
 }
 
+method::Coefficients difference(const method::Coefficients& u, const method::Coefficients& v) {
+  const method::Coefficients w("thixis::models::difference", u.extent(0));
+  Kokkos::parallel_for(
+      "thixis::models::difference", Range(0, u.extent_int(0)), KOKKOS_LAMBDA(int i) { w(i) = u(i) - v(i); });
+  return w;
+}
+
 void gap(const MembraneOperator& membranes, const MultiVector& u, Vector& K) {
   const auto fields = u.getLocalViewDevice(Tpetra::Access::ReadOnly);
   const auto out = K.getLocalViewDevice(Tpetra::Access::OverwriteAll);

@@ -67,6 +67,8 @@ void join(const Fields& fields, algebra::Vector& X);
 void split(const algebra::Vector& x, algebra::MultiVector& columns);
 void join(const algebra::MultiVector& columns, algebra::Vector& x);
 
+/// u - v.
+method::Coefficients difference(const method::Coefficients& u, const method::Coefficients& v);
 /// K = u_1 - u_2 or u_1 - psi, on points().
 void gap(const MembraneOperator& membranes, const algebra::MultiVector& u, algebra::Vector& K);
 

@@ -52,6 +52,7 @@ class MembraneDiscretization final : public Discretization {
     if (method.nodes == method::Nodes::bernstein && scene.count == 2)
       keep_in_order(lift_[0], lift_[1], space_->coefficients_shown(lift_[0]).size());
     problem_ = std::make_unique<MembraneProblem>(membrane_operator(scene, *space_, method, lift_, body_), linear, space_->coordinates());
+    if (scene.count == 1) obstacle_ = space_->complete(*problem_->membranes().obstacle, lift_of_obstacle(boundary));
   }
 
   complementarity::Problem& problem() override { return *problem_; }
@@ -70,9 +71,12 @@ class MembraneDiscretization final : public Discretization {
     const auto& coarse = dynamic_cast<const MembraneDiscretization&>(coarse_level);
     Fields coarse_x = coarse.fields(coarse_X), x = fields();
     coarse.problem_->settle(coarse_x);
-    for (int alpha = 0; alpha < scene_.count; ++alpha)
-      space_->prolongate(*coarse.space_, coarse.space_->complete(*coarse_x.u.getVector(alpha), coarse.lift_[alpha]),
-                         *x.u.getVectorNonConst(alpha));
+    for (int alpha = 0; alpha < scene_.count; ++alpha) {
+      Coefficients u = coarse.membrane(coarse_x, alpha);
+      if (scene_.count == 1) u = difference(u, coarse.obstacle_);  // the gap: where it is closed it stays so
+      space_->prolongate(*coarse.space_, u, *x.u.getVectorNonConst(alpha));
+    }
+    if (scene_.count == 1) x.u.update(1, *problem_->membranes().obstacle, 1);
     space_->prolongate_multiplier(*coarse.space_, coarse_x.lambda, x.lambda);
     // moments come with noise of both signs
     if (space_->nodal_multiplier()) problem_->make_complementary(x);
@@ -164,6 +168,13 @@ class MembraneDiscretization final : public Discretization {
   Fields fields(const Vector& X) const { return Fields(problem_->membranes(), X); }
   Coefficients membrane(const Fields& x, int alpha) const { return space_->complete(*x.u.getVector(alpha), lift_[alpha]); }
 
+  Coefficients lift_of_obstacle(const Boundary& boundary) const {
+    method::BoundaryValues psi = boundary.values[0];
+    for (auto& value : psi.dirichlet)
+      if (value) value = scene_.obstacle;
+    return space_->lift(psi, 0);
+  }
+
   std::vector<double> obstacle_shown() const {
     const auto points = space_->display().points;
     std::vector<double> x, y, values(points.size());
@@ -186,6 +197,7 @@ class MembraneDiscretization final : public Discretization {
   std::unique_ptr<method::Space> space_;
   Coefficients nothing_;  ///< no boundary values
   Coefficients lift_[2];
+  Coefficients obstacle_;         ///< the interpolant of psi, for count = 1
   Teuchos::RCP<Vector> body_[2];  ///< loads, before the lifts are moved to the right
   std::unique_ptr<MembraneProblem> problem_;
 };

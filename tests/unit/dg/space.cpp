@@ -4,10 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 
 #include "thixis/algebra/solver.hpp"
 #include "thixis/algebra/tpetra.hpp"
 #include "thixis/mesh/build.hpp"
+#include "thixis/mesh/geometry.hpp"
+#include "thixis/mesh/host.hpp"
 
 namespace thixis::dg {
 namespace {
@@ -27,14 +30,14 @@ struct Setting {
   method::Nodes nodes;
 };
 
-mesh::Hierarchy hierarchy(Generator generator, int refinements) {
+mesh::Hierarchy hierarchy(Generator generator, int refinements, const core::Comm& comm = core::Comm()) {
   mesh::MeshParams params;
   params.generator = generator;
   params.refinements = refinements;
   params.cells_per_rank = 20;
   if (generator == Generator::disk) params.rings = 3;
   if (generator == Generator::file) params.file = "l_shape_22.msh";
-  return mesh::build(params, core::Comm(), MESH_FILES);
+  return mesh::build(params, comm, MESH_FILES);
 }
 
 BoundaryValues everywhere(const mesh::Mesh& mesh, const FieldPtr& dirichlet, const FieldPtr& neumann = nullptr) {
@@ -146,22 +149,19 @@ TEST_P(InteriorPenalty, patch_test_with_a_tension_that_jumps_across_faces) {
   EXPECT_LT(distance(solved(*V, *tension, F), exact), 1e-11);
 }
 
-TEST_P(InteriorPenalty, sipg_is_symmetric_and_both_are_positive_definite) {
+TEST_P(InteriorPenalty, sipg_is_symmetric_and_nipg_is_not) {
   const auto V = space(mesh);
   EXPECT_EQ(V->symmetric(), GetParam().variant == Variant::sipg);
   for (const auto& tension : {scene::constant(3), scene::formula([](double x, double y) { return 2 + x * y / 2; })}) {
     const auto S = V->stiffness(*tension);
     Vector y(V->map()), z(V->map()), Sy(V->map()), Sz(V->map());
-    for (int k = 0; k < 5; ++k) {
-      y.randomize();
-      z.randomize();
-      S->apply(y, Sy);
-      S->apply(z, Sz);
-      EXPECT_GT(y.dot(Sy), 0);
-      const double skew = std::abs(z.dot(Sy) - y.dot(Sz)), size = std::abs(z.dot(Sy)) + std::abs(y.dot(Sz));
-      if (V->symmetric()) EXPECT_LT(skew, 1e-10 * size);
-      else EXPECT_GT(skew, 1e-8 * size);
-    }
+    y.randomize();
+    z.randomize();
+    S->apply(y, Sy);
+    S->apply(z, Sz);
+    const double skew = std::abs(z.dot(Sy) - y.dot(Sz)), size = std::abs(z.dot(Sy)) + std::abs(y.dot(Sz));
+    if (V->symmetric()) EXPECT_LT(skew, 1e-10 * size);
+    else EXPECT_GT(skew, 1e-8 * size);
   }
 }
 
@@ -236,6 +236,128 @@ std::string setting_name(const ::testing::TestParamInfo<Setting>& info) {
          (s.nodes == method::Nodes::bernstein ? "_bernstein" : "_lagrange");
 }
 INSTANTIATE_TEST_SUITE_P(Dg, InteriorPenalty, ::testing::ValuesIn(settings()), setting_name);
+
+/// The whole matrix by the identities of its unknowns.
+using Entries = std::map<std::pair<GlobalIndex, GlobalIndex>, double>;
+
+Entries entries(const method::Space& V, const scene::Field& tension) {
+  const auto S = V.stiffness(tension);
+  const auto ids = V.unknown_ids();
+  Vector own(S->getRowMap()), ghosted(S->getColMap());
+  for (std::size_t row = 0; row < ids.size(); ++row) own.replaceLocalValue(row, static_cast<double>(ids[row]));
+  const auto import = S->getGraph()->getImporter();
+  if (import.is_null()) ghosted.assign(own);
+  else ghosted.doImport(own, *import, Tpetra::INSERT);
+  const auto id = algebra::host_view(std::as_const(ghosted));
+  const auto matrix = S->getLocalMatrixHost();
+  std::vector<GlobalIndex> pairs;
+  std::vector<double> values;
+  for (int row = 0; row < matrix.numRows(); ++row)
+    for (auto k = matrix.graph.row_map(row); k < matrix.graph.row_map(row + 1); ++k) {
+      pairs.push_back(ids[row]);
+      pairs.push_back(static_cast<GlobalIndex>(id(matrix.graph.entries(k))));
+      values.push_back(matrix.values(k));
+    }
+  const core::Comm comm = V.mesh().comm;
+  pairs = comm.gather(pairs);
+  values = comm.gather(values);
+  Entries all;
+  for (std::size_t k = 0; k < values.size(); ++k) all[{pairs[2 * k], pairs[2 * k + 1]}] = values[k];
+  EXPECT_EQ(all.size(), values.size());
+  return all;
+}
+
+TEST_P(InteriorPenalty, the_matrix_does_not_depend_on_the_ranks) {
+  if (GetParam().nodes == method::Nodes::bernstein) return;
+  const auto one_rank = hierarchy(GetParam().generator, 1, core::Comm(MPI_COMM_SELF));
+  for (const auto& tension : {scene::constant(3), scene::formula([](double x, double y) { return x < 0.5 ? 2 + x * y : 1; })}) {
+    const Entries here = entries(*space(mesh), *tension), alone = entries(*space(one_rank.finest()), *tension);
+    ASSERT_EQ(here.size(), alone.size());
+    double largest = 0, difference = 0;
+    for (const auto& [place, value] : alone) {
+      largest = std::max(largest, std::abs(value));
+      ASSERT_EQ(here.count(place), 1);
+      difference = std::max(difference, std::abs(value - here.at(place)));
+    }
+    EXPECT_LT(difference, 1e-12 * largest);
+  }
+}
+
+/// Whether S + S' has a Cholesky factor.
+bool positive_definite(const Entries& S) {
+  std::map<GlobalIndex, int> number;
+  for (const auto& [place, value] : S) number.try_emplace(place.first, static_cast<int>(number.size()));
+  const int n = static_cast<int>(number.size());
+  std::vector<double> A(n * n);
+  for (const auto& [place, value] : S) {
+    const int i = number.at(place.first), j = number.at(place.second);
+    A[i * n + j] += value;
+    A[j * n + i] += value;
+  }
+  for (int k = 0; k < n; ++k) {
+    for (int j = 0; j < k; ++j) {
+      for (int i = 0; i < j; ++i) A[k * n + j] -= A[k * n + i] * A[j * n + i];
+      A[k * n + j] /= A[j * n + j];
+      A[k * n + k] -= A[k * n + j] * A[k * n + j];
+    }
+    if (!(A[k * n + k] > 0)) return false;
+    A[k * n + k] = std::sqrt(A[k * n + k]);
+  }
+  return true;
+}
+
+/// (1 + 1/p)/4 max_K sum_F w_F |F|²/|K|, w_F = 2 on the boundary (docs/methods/dg.md, 2).
+double sufficient_penalty(const mesh::Mesh& mesh, int p) {
+  const auto host = mesh::on_host(mesh);
+  double largest = 0;
+  for (LocalIndex K = 0; K < mesh.cells; ++K) {
+    double sum = 0;
+    for (int i = 0; i < 3; ++i) {
+      const LocalIndex F = host.cell_faces(K, i);
+      const double length = mesh::face_geometry(host.coordinates, host.face_vertices, F).length;
+      sum += (host.face_tag(F) < 0 ? 1 : 2) * length * length;
+    }
+    largest = std::max(largest, sum / mesh::cell_area(host.coordinates, host.cell_vertices, K));
+  }
+  return (1 + 1.0 / p) / 4 * largest;
+}
+
+mesh::Mesh coarse(Generator generator) { return hierarchy(generator, 0, core::Comm(MPI_COMM_SELF)).levels[0]; }
+
+/// The same mesh pressed to a tenth of its height.
+mesh::Mesh flattened(Generator generator) {
+  const mesh::Mesh mesh = coarse(generator);
+  const auto x = mesh::on_host(mesh).coordinates;
+  for (LocalIndex v = 0; v < mesh.vertices; ++v) mesh.coordinates(v, 1) = 0.1 * x(v, 1);
+  return mesh;
+}
+
+class Penalty : public ::testing::TestWithParam<int> {
+ protected:
+  bool definite(const mesh::Mesh& mesh, Variant variant, double penalty) const {
+    method::MethodParams params;
+    params.degree = GetParam();
+    params.variant = variant;
+    params.penalty = penalty;
+    const auto V = make_space(mesh, {std::vector<bool>(mesh.tags.size(), true), nullptr, params});
+    return positive_definite(entries(*V, *scene::constant(1)));
+  }
+};
+
+TEST_P(Penalty, that_the_shape_of_the_cells_asks_for_makes_sipg_positive_definite) {
+  for (const auto generator : {Generator::criss_cross, Generator::disk, Generator::file})
+    for (const bool flat : {false, true}) {
+      const mesh::Mesh mesh = flat ? flattened(generator) : coarse(generator);
+      const double enough = sufficient_penalty(mesh, GetParam());
+      EXPECT_TRUE(definite(mesh, Variant::sipg, 1.001 * enough));
+      EXPECT_FALSE(definite(mesh, Variant::sipg, 0.1 * enough));
+      EXPECT_EQ(enough < method::MethodParams().penalty, !flat);
+    }
+}
+
+TEST_P(Penalty, of_any_size_makes_nipg_positive_definite) { EXPECT_TRUE(definite(flattened(Generator::criss_cross), Variant::nipg, 1e-3)); }
+
+INSTANTIATE_TEST_SUITE_P(Degrees, Penalty, ::testing::Range(1, 5));
 
 TEST(Poisson, converges_with_order_p) {
   const double pi = std::acos(-1.0);

@@ -43,7 +43,7 @@ void derivatives(Rows rows, const Vector& s, std::mt19937& random, Vector& a, Ve
     const bool contact = rows == Rows::contact || (rows == Rows::min && random() % 3 == 0);
     if (rows == Rows::fischer_burmeister) {
       double phi = random() % 5 == 0 ? 1.5707963267948966 : angle(random);  // 90 degrees: gap 0, multiplier > 0: contact
-      if (std::sin(phi) > 1 - 1e-6) phi = 1.5707963267948966;                // nearly so: the systems are ill-conditioned
+      if (std::sin(phi) > 1 - 1e-6) phi = 1.5707963267948966;               // nearly so: the systems are ill-conditioned
       a_l(l) = random() % 7 == 0 ? 0 : std::cos(phi) - 1;
       b_l(l) = a_l(l) == 0 ? -scale(l) : phi == 1.5707963267948966 ? 0 : scale(l) * (std::sin(phi) - 1);
     } else if (rows == Rows::same_sign) {
@@ -168,8 +168,9 @@ TEST_P(Systems, full_reduced_and_condensed_give_the_same_increment) {
         ASSERT_TRUE(full.solve(R, reference, {1e-12, 0, nullptr}).converged);
         EXPECT_LT(defect(operators, a, b, reference, R), 1e-9);
         const double size = reference.norm2();
-        for (const auto& [name, problem] : {std::pair("direct", &reduced), std::pair("multigrid", &multigrid),
-                                            std::pair("condensed, direct", &condensed), std::pair("condensed, multigrid", &condensed_multigrid)}) {
+        for (const auto& [name, problem] :
+             {std::pair("direct", &reduced), std::pair("multigrid", &multigrid), std::pair("condensed, direct", &condensed),
+              std::pair("condensed, multigrid", &condensed_multigrid)}) {
           Vector dX(full.map());
           problem->linearize(X, a, b);
           const auto report = problem->solve(R, dX, {1e-12, 0, nullptr});

@@ -40,8 +40,8 @@ struct NewtonObserver {
 struct NewtonReport {
   int steps = 0;  ///< linear systems solved and used
   bool converged = false;
-  bool settled = true;      ///< false: Newton-min met the residual test, but its last step still changed the contact set
-  std::string why;                                              ///< one sentence: why it ended
+  bool settled = true;  ///< false: Newton-min met the residual test with a contact set that still changed, and a residual that says so
+  std::string why;      ///< one sentence: why it ended
   int linear_iterations = 0;                                    ///< total
   std::vector<double> residuals;                                ///< |(E(X^k) - F, C(X^k))|, k = 0 ... steps
   double residual_equations = 0, residual_complementarity = 0;  ///< the parts of the last one
@@ -54,7 +54,8 @@ struct NewtonReport {
 /// leaves the last iterate in X, converged or not.
 ///
 /// **It has converged** as soon as
-/// - |R(X^k)| <= eps_lin |(F, 0)| + absolute tolerance, for k = 0, 1, ... (where (F, 0) = 0: eps_lin |R(X^0)|), or
+/// - |R(X^k)| <= eps_lin |(F, 0)| + absolute tolerance, for k = 0, 1, ... (where (F, 0) = 0: eps_lin |R(X^0)|); in full steps of Newton-min
+///   only once what still changes in the contact set is within the residual of the linear solver, or after five such iterates, or
 /// - Newton-min, full step: the contact set at X^k is the one that step k was computed with, the linear solver met its tolerance, and
 ///   |R(X^k)| is no more (at most twice as much, for round-off) than it left behind. With linear E, K, G the last condition holds by
 ///   itself: X^k solves the linear system of its own contact set. With nonlinear E it says that nothing is left to linearize.
