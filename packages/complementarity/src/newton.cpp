@@ -58,7 +58,7 @@ struct Tests {
     const bool full_min = steps == Steps::full && params.c_function == CFunction::min;
     const bool damped_to_the_end = params.c_function != CFunction::min && params.globalization == Globalization::line_search;
     all->addStatusTest(finite);
-    add(small, new SmallResidual(system));
+    add(small, new SmallResidual(system, full_min));
     if (full_min) add(settled, new SettledContactSet(system));
     if (full_min) add(cycle, new Cycle(system));
     if (steps == Steps::full && params.globalization == Globalization::hybrid) add(growing, new Growing);

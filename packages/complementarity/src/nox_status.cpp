@@ -14,6 +14,16 @@ NOX::StatusTest::StatusType Question::checkStatus(const NOX::Solver::Generic& so
   return status_ = ask(now, before, k) ? yes_ : NOX::StatusTest::Unconverged;
 }
 
+bool SmallResidual::ask(const State& now, const State& before, int k) {
+  constexpr int patience = 5;
+  if (!(now.residual <= system_.nonlinear_bound())) {
+    in_a_row_ = 0;
+    return false;
+  }
+  if (!patient_ || k == 0) return true;
+  return ++in_a_row_ >= patience || now.residual <= 2 * system_.left() || now.active.changed(before.active) == 0;
+}
+
 bool SettledContactSet::ask(const State& now, const State& before, int k) {
   return k > 0 && system_.solved() && now.residual <= 2 * system_.left() && now.active.changed(before.active) == 0;
 }

@@ -26,14 +26,18 @@ class Question : public NOX::StatusTest::Generic {
   NOX::StatusTest::StatusType status_ = NOX::StatusTest::Unevaluated;
 };
 
-/// |R| <= bound
+/// |R| <= bound. Full steps of Newton-min (`patient`): also that the last step changed no contact point, or left no more residual than the
+/// linear solver, so that what changes are ties; or that it is the fifth such iterate in a row. Where tensions differ by orders of
+/// magnitude, |R| may be small long before the contact set is right.
 class SmallResidual : public Question {
  public:
-  explicit SmallResidual(const System& system) : Question(NOX::StatusTest::Converged), system_(system) {}
+  SmallResidual(const System& system, bool patient) : Question(NOX::StatusTest::Converged), system_(system), patient_(patient) {}
 
  private:
-  bool ask(const State& now, const State&, int) override { return now.residual <= system_.nonlinear_bound(); }
+  bool ask(const State& now, const State& before, int k) override;
   const System& system_;
+  bool patient_;
+  int in_a_row_ = 0;
 };
 
 /// Newton-min, full step: the same contact set as before, and no residual but that of the linear solver.

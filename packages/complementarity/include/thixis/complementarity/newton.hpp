@@ -54,7 +54,8 @@ struct NewtonReport {
 /// leaves the last iterate in X, converged or not.
 ///
 /// **It has converged** as soon as
-/// - |R(X^k)| <= eps_lin |(F, 0)| + absolute tolerance, for k = 0, 1, ... (where (F, 0) = 0: eps_lin |R(X^0)|), or
+/// - |R(X^k)| <= eps_lin |(F, 0)| + absolute tolerance, for k = 0, 1, ... (where (F, 0) = 0: eps_lin |R(X^0)|); in full steps of Newton-min
+///   only once what still changes in the contact set is within the residual of the linear solver, or after five such iterates, or
 /// - Newton-min, full step: the contact set at X^k is the one that step k was computed with, the linear solver met its tolerance, and
 ///   |R(X^k)| is no more (at most twice as much, for round-off) than it left behind. With linear E, K, G the last condition holds by
 ///   itself: X^k solves the linear system of its own contact set. With nonlinear E it says that nothing is left to linearize.
