@@ -36,7 +36,7 @@ struct MethodParams {
   double penalty = 10;  ///< eta in eta p²/|F|
   BoundaryTreatment boundary = BoundaryTreatment::weak;
   std::optional<bool> condensation;  ///< not given: hho only
-  double stabilization = 1;          ///< kappa
+  double stabilization = 10;         ///< kappa
   StabilizationLength stabilization_length = StabilizationLength::face;
   static const core::Schema<MethodParams>& schema();
   int order() const { return quadrature_order > 0 ? quadrature_order : 2 * degree + 4; }
