@@ -99,7 +99,7 @@ complementarity::KktData kkt_data(const MembraneSolution& solution) {
   const double mean_pairing = membranes.points()->getGlobalNumElements() > 0 ? D.meanValue() : 1;
   const double per_area =
       domain.area / points / mean_pairing;  // of X3: about 1 for nodal values, |K| over the points of a cell for moments
-  double size = 0, bending = std::numeric_limits<double>::infinity();
+  double size = 0, softest = std::numeric_limits<double>::infinity();
   data.multiplier_scale = 0;
   for (int alpha = 0; alpha < scene.count; ++alpha) {
     // lambda_1 = (a(u1, psi) - F1) / D,  lambda_2 = (F2 - a(u2, psi)) / D
@@ -110,17 +110,16 @@ complementarity::KktData kkt_data(const MembraneSolution& solution) {
     const auto multiplier = over_pairing(defect, D);
     data.equilibrium.push_back(multiplier);
     data.unbalanced = std::max(data.unbalanced, largest_elsewhere(defect, algebra::local_size(*membranes.points())) / mean_pairing);
-    // what is large: the force per area that is there, and the one that bends the softer membrane over the width of the domain
-    const double height = largest(u[alpha], space.mesh().comm);
-    const double bends = largest_tension(*scene.tension[alpha], space.mesh()) * height / (domain.width * domain.width) * per_area;
-    if (bends > 0) bending = std::min(bending, bends);
+    // what is large: the force per area that is there, …
     data.multiplier_scale =
         std::max({data.multiplier_scale, multiplier->normInf(), over_pairing(force_alone(solution, alpha), D)->normInf()});
-    size = std::max(size, height);
+    softest = std::min(softest, largest_tension(*scene.tension[alpha], space.mesh()));
+    size = std::max(size, largest(u[alpha], space.mesh().comm));
   }
-  if (std::isfinite(bending)) data.multiplier_scale = std::max(data.multiplier_scale, bending);
+  // … and the one that bends the softer membrane to such heights over the width of the domain
+  data.multiplier_scale = std::max(data.multiplier_scale, softest * size / (domain.width * domain.width) * per_area);
   if (!(data.multiplier_scale > 0)) data.multiplier_scale = 1;
-  // ... and a gap: the heights that are there, and what such a force opens at one point
+  // … and a gap: the heights that are there, and what such a force opens at one point
   Vector s(membranes.points());
   problem.scaling(s);
   Vector inverse_D(membranes.points()), inverse_s(membranes.points());
