@@ -133,12 +133,26 @@ TEST(Unknowns, of_fem_and_dg_are_three_per_node) {
 
 TEST(Order, of_degree_4_with_gauss_lobatto_nodes_is_4_on_smooth_contact) {
   for (const auto name : {method::MethodName::fem, method::MethodName::hho}) {
-    double before = energy_error("smooth contact", 1, by(name, 4));
+    auto method = by(name, 4);
+    method.stabilization = 1;
+    double before = energy_error("smooth contact", 1, method);
     for (int level = 2; level <= 4; ++level) {
-      const double error = energy_error("smooth contact", level, by(name, 4));
+      const double error = energy_error("smooth contact", level, method);
       EXPECT_GE(order(before, error), 3.9) << method::to_text(name) << ", T_" << level;
       before = error;
     }
+  }
+}
+
+/// The default stabilization: several times more accurate than kappa = 1, of the same order.
+TEST(Order, of_hho_with_the_default_stabilization_is_p_on_smooth_contact) {
+  for (int p = 2; p <= 4; ++p) {
+    const auto method = by(method::MethodName::hho, p);
+    auto published = method;
+    published.stabilization = 1;
+    const double fine = energy_error("smooth contact", 3, method);
+    EXPECT_LT(3 * fine, energy_error("smooth contact", 3, published)) << "P" << p;
+    EXPECT_GE(order(energy_error("smooth contact", 2, method), fine), p - 0.1) << "P" << p;
   }
 }
 
