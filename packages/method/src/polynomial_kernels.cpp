@@ -24,21 +24,6 @@ struct Moments {
   }
 };
 
-struct Means {
-  QuadratureBlock block;
-  Values f;
-  Kokkos::View<double*> mean;  ///< out, overwritten
-
-  KOKKOS_FUNCTION void operator()(int e) const {
-    double integral = 0, area = 0;
-    for (int q = block.offset(e); q < block.offset(e + 1); ++q) {
-      integral += block.weight(q) * f(q);
-      area += block.weight(q);
-    }
-    mean(e) = integral / area;
-  }
-};
-
 struct GradientError {
   CellFunctions functions;
   View<double* [2]> x;
@@ -187,10 +172,6 @@ Kokkos::RangePolicy<> range(LocalIndex count) { return Kokkos::RangePolicy<>(0, 
 
 void moments(const CellFunctions& functions, const QuadratureBlock& block, const Values& f, const Block2& F) {
   Kokkos::parallel_for("thixis::method::moments", range(block.cells), Moments{functions, block, f, F});
-}
-
-void means(const QuadratureBlock& block, const Values& f, const Kokkos::View<double*>& mean) {
-  Kokkos::parallel_for("thixis::method::means", range(block.cells), Means{block, f, mean});
 }
 
 double gradient_error(const CellFunctions& functions, const mesh::Mesh& mesh, const QuadratureBlock& block, LocalIndex cells,

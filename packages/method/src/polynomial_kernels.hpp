@@ -14,9 +14,6 @@ using Table = Kokkos::View<const double**, Kokkos::LayoutRight>;
 /// F(e, l) = (f, psi_l)_K for the cells of the block; f(q) at its points.
 void moments(const CellFunctions& functions, const QuadratureBlock& block, const Values& f, const Block2& F);
 
-/// Mean of f over each cell of a block.
-void means(const QuadratureBlock& block, const Values& f, const Kokkos::View<double*>& mean);
-
 /// Values of mu and of a known gradient (Views of length 0: none) at the points of a block.
 struct AtPoints {
   Values mu, x, y;

@@ -211,26 +211,6 @@ void PolynomialSpace::load(const scene::Field&, const scene::Field& force, const
   });
 }
 
-View<double*> PolynomialSpace::mean_over_cells(const scene::Field& tension) const {
-  const View<double*> mu("thixis::method::mean_tension", cells_.extent(0));
-  if (const double* value = tension.constant()) {
-    Kokkos::deep_copy(mu, *value);
-    return mu;
-  }
-  mesh_.comm.together([&] {
-    const View<double*> at_points("thixis::method::tension", quadrature_.largest_block);
-    for_each_block(quadrature_, [&](const QuadratureBlock& block) {
-      evaluate(tension, 0, block, at_points);
-      means(block, at_points, Kokkos::subview(mu, std::pair(block.first, block.first + block.cells)));
-    });
-    const auto host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), mu);
-    for (std::size_t k = 0; k < host.extent(0); ++k)
-      if (!(host(k) > 0))
-        throw core::InputError("scene/data: a tension is not positive in some cell; give tensions that are positive everywhere.");
-  });
-  return mu;
-}
-
 // -- coefficients -------------------------------------------------------------------------------------------------------------------
 
 std::vector<double> PolynomialSpace::at_entries(const scene::Field& field, const std::vector<LocalIndex>& entries, double t) const {

@@ -26,11 +26,16 @@ void check_size(const output::StoredCheckpoint& stored, const std::string& block
                   stored.path(), saved < 0 ? fmt::format("no '{}'", block) : fmt::format("{} values of '{}'", saved, block), unknowns));
 }
 
-/// Brings coefficients together where those of the upper membrane are below those of the lower one: the first `count` of them.
-void keep_in_order(const Coefficients& upper, const Coefficients& lower, std::size_t count) {
+/// Brings coefficients together where those of the upper membrane are below those of the lower one, the first ones: at the mean with the
+/// weights share and 1 - share.
+void keep_in_order(const Coefficients& upper, const Coefficients& lower, const std::vector<double>& share) {
+  const Coefficients theta("thixis::models::share", share.size());
+  const auto host = Kokkos::create_mirror_view(theta);
+  std::copy(share.begin(), share.end(), host.data());
+  Kokkos::deep_copy(theta, host);
   Kokkos::parallel_for(
-      "thixis::models::keep_in_order", Kokkos::RangePolicy<>(0, count), KOKKOS_LAMBDA(std::size_t i) {
-        if (upper(i) < lower(i)) upper(i) = lower(i) = 0.5 * (upper(i) + lower(i));
+      "thixis::models::keep_in_order", Kokkos::RangePolicy<>(0, share.size()), KOKKOS_LAMBDA(std::size_t i) {
+        if (upper(i) < lower(i)) upper(i) = lower(i) = theta(i) * upper(i) + (1 - theta(i)) * lower(i);
       });
 }
 
@@ -49,8 +54,7 @@ class MembraneDiscretization final : public Discretization {
     }
     nothing_ = Coefficients("thixis::models::nothing", lift_[0].extent(0));
     // Bernstein coefficients of ordered data need not be ordered
-    if (method.nodes == method::Nodes::bernstein && scene.count == 2)
-      keep_in_order(lift_[0], lift_[1], space_->coefficients_shown(lift_[0]).size());
+    if (method.nodes == method::Nodes::bernstein && scene.count == 2) keep_in_order(lift_[0], lift_[1], share_of_upper_tension());
     problem_ = std::make_unique<MembraneProblem>(membrane_operator(scene, *space_, method, lift_, body_), linear, space_->coordinates());
     if (scene.count == 1) obstacle_ = space_->complete(*problem_->membranes().obstacle, lift_of_obstacle(boundary));
   }
@@ -147,7 +151,7 @@ class MembraneDiscretization final : public Discretization {
     add("lambda", [&] { return space_->shown(space_->multiplier(x.lambda)); });
     add("gap", [&] {
       auto gap = space_->shown(membrane(x, 0));
-      const auto below = scene_.count == 2 ? space_->shown(membrane(x, 1)) : obstacle_shown();
+      const auto below = scene_.count == 2 ? space_->shown(membrane(x, 1)) : at_points(*scene_.obstacle);
       for (std::size_t i = 0; i < gap.size(); ++i) gap[i] -= below[i];
       return gap;
     });
@@ -175,15 +179,27 @@ class MembraneDiscretization final : public Discretization {
     return space_->lift(psi, 0);
   }
 
-  std::vector<double> obstacle_shown() const {
+  /// Values at the points of the grid.
+  std::vector<double> at_points(const scene::Field& field) const {
     const auto points = space_->display().points;
     std::vector<double> x, y, values(points.size());
     for (const auto& point : points) {
       x.push_back(point[0]);
       y.push_back(point[1]);
     }
-    space_->mesh().comm.together([&] { scene_.obstacle->evaluate({points.size(), x.data(), y.data()}, 0, values.data()); });
+    space_->mesh().comm.together([&] { field.evaluate({points.size(), x.data(), y.data()}, 0, values.data()); });
     return values;
+  }
+
+  /// mu_1 / (mu_1 + mu_2) at the points of the grid: the stiffer membrane gives way less.
+  std::vector<double> share_of_upper_tension() const {
+    auto share = at_points(*scene_.tension[0]);
+    const auto lower = at_points(*scene_.tension[1]);
+    for (std::size_t i = 0; i < share.size(); ++i) {
+      const double both = share[i] + lower[i];
+      share[i] = both > 0 ? std::clamp(share[i] / both, 0.0, 1.0) : 0.5;
+    }
+    return share;
   }
 
   Teuchos::RCP<Vector> joined(const Fields& x) const {

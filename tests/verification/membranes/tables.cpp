@@ -185,4 +185,21 @@ TEST(Bernstein, keeps_the_upper_membrane_above_the_lower_one_everywhere_at_the_o
     }
 }
 
+/// g1 >= g2 touch inside faces, where their coefficients are not in order.
+TEST(Bernstein, leaves_a_stiff_membrane_where_it_is_held) {
+  auto params = data({{"mu2", "1e5"}, {"f1", "-2"}, {"g1", "4*(x - 0.37)^2*(y - 0.63)^2"}, {"g2", "0"}}, 1);
+  for (int p = 2; p <= 4; ++p)
+    for (const auto name : {method::MethodName::fem, method::MethodName::dg}) {
+      params.method = by(name, p);
+      params.method.boundary = method::BoundaryTreatment::strong;
+      const Solved lagrange = solve(params);
+      params.method.nodes = method::Nodes::bernstein;
+      const Solved bernstein = solve(params);
+      ASSERT_TRUE(bernstein.outcome.solved && lagrange.outcome.solved) << bernstein.outcome.finest.why;
+      EXPECT_LE(bernstein.outcome.kkt->between_nodes, 1e-11) << method::to_text(name) << " P" << p;
+      EXPECT_NEAR(bernstein.outcome.energy_norm, lagrange.outcome.energy_norm, 0.02 * lagrange.outcome.energy_norm)
+          << method::to_text(name) << " P" << p;
+    }
+}
+
 }  // namespace thixis::verification

@@ -28,7 +28,7 @@ struct NewtonParams {
   Ties ties = Ties::contact;
   double tie_tolerance = 1e-12;
   Scaling scaling = Scaling::physical;
-  std::optional<int> sweeps;  ///< of nonlinear smoothing after a step; not given: 10 in nested runs of fem of degree 1, otherwise none
+  std::optional<int> sweeps;  ///< of nonlinear smoothing after a step; not given: 10 in nested runs of symmetric methods, otherwise none
   static const core::Schema<NewtonParams>& schema();
 };
 

@@ -78,8 +78,6 @@ class PolynomialSpace : public Space {
     const LocalIndex cells = cells_.extent_int(0);
     for (LocalIndex first = 0; first < cells; first += block_cells) f(first, std::min(block_cells, cells - first));
   }
-  /// mu_K, the mean of the tension, for every patch cell. Collective; throws InputError where it is not positive.
-  View<double*> mean_over_cells(const scene::Field& tension) const;
   /// F(l) += (f, psi_l) for the cells' basis functions; F is on map() or points(). Throws on this rank only.
   void add_moments(const scene::Field& f, double t, algebra::Vector& F) const;
   /// F(l) += <t, trace of psi_l> on the faces whose tag has a function. Throws on this rank only.
