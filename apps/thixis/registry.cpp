@@ -51,7 +51,8 @@ std::unique_ptr<models::Model> make_model(const drive::RunParams& params) {
   switch (params.scene.model) {
     case scene::Model::membranes:
     case scene::Model::obstacle:
-      return models::membranes(scene::membrane_scene(params.scene), make_space, params.method, params.linear, initial_fields(params));
+      return models::membranes(scene::membrane_scene(params.scene), make_space, params.method, params.linear, initial_fields(params),
+                               params.method.name == method::MethodName::dg ? dg::check_mesh : method::MeshCheck());
     default:
       throw core::InputError("scene/model: this version serves membranes and obstacle only; write one of them.");
   }

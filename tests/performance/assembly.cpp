@@ -105,8 +105,12 @@ void measure(const Subject& subject, const mesh::Mesh& mesh, double bytes_per_se
 
   // what must be moved: coordinates, vertices and columns of each cell in, column numbers read, values read and written
   const double bytes = cells * (60.0 + 4.0 * n) + 20.0 * static_cast<double>(S->getGlobalNumEntries());
-  // what must be computed: five operations per entry of a local matrix for three reference matrices (hho: six), one to add it
-  const double flops = static_cast<double>(cells) * n * n * (subject.params.name == method::MethodName::hho ? 12 : 6);
+  // what must be computed: five operations per entry of a local matrix for three reference matrices (hho: twice that), one to add it; on
+  // each of 1.5 faces per cell, at p+1 points, 2(p+1) functions with a trace against 4n and 2(p+1) others, and 4n² to add
+  const int p = subject.params.degree;
+  double per_cell = n * n * (subject.params.name == method::MethodName::hho ? 12.0 : 6.0);
+  if (subject.params.name == method::MethodName::dg) per_cell += 1.5 * ((p + 1) * 2 * (p + 1) * (8.0 * n + 6 * (p + 1)) + 4.0 * n * n);
+  const double flops = cells * per_cell;
   const double bound = std::max(bytes / bytes_per_second, flops / flops_per_second);
   fmt::print("{:8} {:4} {:10} {:10.2e} {:10.2e} {:10.2e} {:10.2e} {:8} {:8.1f}\n", subject.name, n, S->getGlobalNumEntries(), cells / setup,
              cells / kernel, cells / matrix, cells / load, bytes / bytes_per_second > flops / flops_per_second ? "memory" : "flops",

@@ -1,9 +1,12 @@
 #include "thixis/dg/space.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 
 #include "face_form.hpp"
 #include "thixis/algebra/tpetra.hpp"
+#include "thixis/core/error.hpp"
 #include "thixis/method/gradient_form.hpp"
 #include "thixis/method/polynomial_space.hpp"
 
@@ -284,6 +287,32 @@ class Space final : public method::PolynomialSpace {
 
 std::unique_ptr<method::Space> make_space(const mesh::Mesh& mesh, const method::SpaceOptions& options) {
   return std::make_unique<Space>(mesh, options);
+}
+
+double sufficient_penalty(const mesh::Mesh& mesh, const method::SpaceOptions& options) {
+  const auto host = mesh::on_host(mesh);
+  double largest = 0;
+  for (LocalIndex K = 0; K < mesh.owned_cells; ++K) {
+    double sum = 0;
+    for (int f = 0; f < 3; ++f) {
+      const LocalIndex F = host.cell_faces(K, f), tag = host.face_tag(F);
+      const double weight = tag < 0 ? 1 : options.dirichlet[tag] && !strong(options) ? 2 : 0;
+      const double length = mesh::face_geometry(host.coordinates, host.face_vertices, F).length;
+      sum += weight * length * length;
+    }
+    largest = std::max(largest, sum / mesh::cell_area(host.coordinates, host.cell_vertices, K));
+  }
+  return (1 + 1.0 / options.params.degree) / 4 * mesh.comm.max(largest);
+}
+
+void check_mesh(const mesh::Mesh& mesh, const method::SpaceOptions& options) {
+  if (!options.params.symmetric()) return;
+  const double needed = sufficient_penalty(mesh, options);
+  if (options.params.penalty > needed) return;
+  throw core::InputError(fmt::format(
+      "method/penalty: {:g} is too small for sipg on this mesh, whose thinnest cell asks for more than {:.3g}; write at least {:.3g}, "
+      "or method/variant = nipg, which takes any penalty.",
+      options.params.penalty, needed, 1.1 * needed));
 }
 
 }  // namespace thixis::dg

@@ -221,8 +221,13 @@ class MembraneDiscretization final : public Discretization {
 class Membranes final : public Model {
  public:
   Membranes(scene::MembraneScene scene, method::SpaceFactory make_space, method::MethodParams method, algebra::LinearParams linear,
-            std::array<scene::FieldPtr, 3> initial)
-      : scene_(std::move(scene)), make_space_(std::move(make_space)), method_(method), linear_(linear), initial_(std::move(initial)) {
+            std::array<scene::FieldPtr, 3> initial, method::MeshCheck check_mesh)
+      : scene_(std::move(scene)),
+        make_space_(std::move(make_space)),
+        check_mesh_(std::move(check_mesh)),
+        method_(method),
+        linear_(linear),
+        initial_(std::move(initial)) {
     for (int field = 0; field < 3; ++field)
       if (!initial_[field]) initial_[field] = scene_.initial[field];
   }
@@ -231,6 +236,7 @@ class Membranes final : public Model {
   void check(const mesh::Mesh& mesh, const std::vector<std::string>& field_names) const override {
     check_field_names(scene_, field_names);
     check_functions(scene_, initial_, method_, mesh);
+    if (check_mesh_) check_mesh_(mesh, {boundary_of(scene_, mesh).dirichlet, scene_.interface_level_set, method_});
   }
   std::unique_ptr<Discretization> discretize(const mesh::Mesh& mesh) const override {
     return std::make_unique<MembraneDiscretization>(scene_, make_space_, method_, linear_, initial_, mesh);
@@ -239,6 +245,7 @@ class Membranes final : public Model {
  private:
   scene::MembraneScene scene_;
   method::SpaceFactory make_space_;
+  method::MeshCheck check_mesh_;
   method::MethodParams method_;
   algebra::LinearParams linear_;
   std::array<scene::FieldPtr, 3> initial_;
@@ -247,8 +254,8 @@ class Membranes final : public Model {
 }  // namespace
 
 std::unique_ptr<Model> membranes(scene::MembraneScene scene, method::SpaceFactory make_space, method::MethodParams method,
-                                 algebra::LinearParams linear, std::array<scene::FieldPtr, 3> initial) {
-  return std::make_unique<Membranes>(std::move(scene), std::move(make_space), method, linear, std::move(initial));
+                                 algebra::LinearParams linear, std::array<scene::FieldPtr, 3> initial, method::MeshCheck check_mesh) {
+  return std::make_unique<Membranes>(std::move(scene), std::move(make_space), method, linear, std::move(initial), std::move(check_mesh));
 }
 
 }  // namespace thixis::models

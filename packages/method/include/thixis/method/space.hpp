@@ -1,5 +1,6 @@
 #pragma once
 #include <Kokkos_Core.hpp>
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <memory>
@@ -31,7 +32,7 @@ struct MethodParams {
   MethodName name = MethodName::fem;
   int degree = 1;
   Nodes nodes = Nodes::gauss_lobatto;
-  int quadrature_order = 0;  ///< 0: 2 degree + 4
+  int quadrature_order = 0;  ///< 0: 2 degree + 4; never below 2 degree
   Variant variant = Variant::sipg;
   double penalty = 10;  ///< eta in eta p²/|F|
   BoundaryTreatment boundary = BoundaryTreatment::weak;
@@ -39,7 +40,7 @@ struct MethodParams {
   double stabilization = 10;         ///< kappa
   StabilizationLength stabilization_length = StabilizationLength::face;
   static const core::Schema<MethodParams>& schema();
-  int order() const { return quadrature_order > 0 ? quadrature_order : 2 * degree + 4; }
+  int order() const { return quadrature_order > 0 ? std::max(quadrature_order, 2 * degree) : 2 * degree + 4; }
   bool symmetric() const { return name != MethodName::dg || variant == Variant::sipg; }
   /// Unknowns inside a cell are eliminated from the linear systems.
   bool condensed() const { return condensation.value_or(name == MethodName::hho); }
@@ -148,5 +149,7 @@ struct SpaceOptions {
   MethodParams params;
 };
 using SpaceFactory = std::function<std::unique_ptr<Space>(const mesh::Mesh&, const SpaceOptions&)>;
+/// Throws InputError, on all ranks, for a mesh on which the method can not be trusted. Collective. May be empty.
+using MeshCheck = std::function<void(const mesh::Mesh&, const SpaceOptions&)>;
 
 }  // namespace thixis::method
