@@ -20,16 +20,14 @@ struct Bernstein {
   KOKKOS_INLINE_FUNCTION void values(const double (&lambda)[3], double* B) const {
     double power[3][max_degree + 1];
     powers(lambda, power);
-    for (int k = 0; k < size; ++k)
-      B[k] = factor[k] * power[0][exponent[k][0]] * power[1][exponent[k][1]] * power[2][exponent[k][2]];
+    for (int k = 0; k < size; ++k) B[k] = factor[k] * power[0][exponent[k][0]] * power[1][exponent[k][1]] * power[2][exponent[k][2]];
   }
 
   /// The polynomial sum_k c_k B_k at lambda.
   KOKKOS_INLINE_FUNCTION double value(const double* c, const double (&lambda)[3]) const {
     double power[3][max_degree + 1], sum = 0;
     powers(lambda, power);
-    for (int k = 0; k < size; ++k)
-      sum += c[k] * factor[k] * power[0][exponent[k][0]] * power[1][exponent[k][1]] * power[2][exponent[k][2]];
+    for (int k = 0; k < size; ++k) sum += c[k] * factor[k] * power[0][exponent[k][0]] * power[1][exponent[k][1]] * power[2][exponent[k][2]];
     return sum;
   }
 

@@ -21,8 +21,8 @@ class CellBasis {
   CellBasis(int degree, Family family);
 
   int degree() const { return degree_; }
-  int size() const { return bernstein_.size; }                           ///< n = (p+1)(p+2)/2
-  int interior() const { return interior_; }                             ///< functions inside: the first ones
+  int size() const { return bernstein_.size; }  ///< n = (p+1)(p+2)/2
+  int interior() const { return interior_; }    ///< functions inside: the first ones
   Family family() const { return family_; }
   const std::vector<NodeEntity>& entities() const { return entities_; }  ///< of every function
 
