@@ -47,7 +47,7 @@ Outcome solve_stationary(const models::Model& model, const mesh::Hierarchy& hier
   if (!newton.sweeps) newton.sweeps = nested && params.method.symmetric() ? 10 : 0;
 
   for (int level = first; level <= finest; ++level) {
-    auto discretization = model.discretize(hierarchy.levels[level]);
+    auto discretization = model.discretize(hierarchy, level);
     const auto X = outcome.discretization ? discretization->nested_start(*outcome.discretization, *outcome.X)
                    : restart              ? discretization->restore(*stored)
                                           : discretization->cold_start();

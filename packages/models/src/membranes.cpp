@@ -42,9 +42,11 @@ void keep_in_order(const Coefficients& upper, const Coefficients& lower, const s
 class MembraneDiscretization final : public Discretization {
  public:
   MembraneDiscretization(const scene::MembraneScene& scene, const method::SpaceFactory& make_space, const method::MethodParams& method,
-                         const algebra::LinearParams& linear, const std::array<scene::FieldPtr, 3>& initial, const mesh::Mesh& mesh)
-      : scene_(scene), initial_(initial) {
+                         const algebra::LinearParams& linear, const std::array<scene::FieldPtr, 3>& initial,
+                         const mesh::Hierarchy& hierarchy, int level)
+      : scene_(scene), initial_(initial), hierarchy_(hierarchy), level_(level) {
     const core::Region region("assembly");
+    const mesh::Mesh& mesh = hierarchy.levels[level];
     const Boundary boundary = boundary_of(scene, mesh);
     space_ = make_space(mesh, {boundary.dirichlet, scene.interface_level_set, method});
     for (int alpha = 0; alpha < scene.count; ++alpha) {
@@ -131,6 +133,12 @@ class MembraneDiscretization final : public Discretization {
     return std::sqrt(sum);
   }
 
+  complementarity::Estimate estimate(const Vector&) override {
+    throw core::InputError("stopping/estimate: no bound is served; write false.");
+  }
+  CellEstimates cell_estimates() const override { return {}; }
+  std::optional<PublishedEstimate> published_estimate(const Vector&) override { return std::nullopt; }
+
   complementarity::KktData kkt_data(const Vector& X) const override {
     MembraneSolution solution{scene_, *space_, *problem_, body_, fields(X), {}};
     for (int alpha = 0; alpha < scene_.count; ++alpha) solution.u[alpha] = membrane(solution.x, alpha);
@@ -210,6 +218,8 @@ class MembraneDiscretization final : public Discretization {
 
   const scene::MembraneScene& scene_;
   const std::array<scene::FieldPtr, 3>& initial_;
+  const mesh::Hierarchy& hierarchy_;
+  int level_;
   std::unique_ptr<method::Space> space_;
   Coefficients nothing_;  ///< no boundary values
   Coefficients lift_[2];
@@ -238,8 +248,8 @@ class Membranes final : public Model {
     check_functions(scene_, initial_, method_, mesh);
     if (check_mesh_) check_mesh_(mesh, {boundary_of(scene_, mesh).dirichlet, scene_.interface_level_set, method_});
   }
-  std::unique_ptr<Discretization> discretize(const mesh::Mesh& mesh) const override {
-    return std::make_unique<MembraneDiscretization>(scene_, make_space_, method_, linear_, initial_, mesh);
+  std::unique_ptr<Discretization> discretize(const mesh::Hierarchy& hierarchy, int level) const override {
+    return std::make_unique<MembraneDiscretization>(scene_, make_space_, method_, linear_, initial_, hierarchy, level);
   }
 
  private:

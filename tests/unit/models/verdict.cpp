@@ -58,7 +58,7 @@ class Verdict : public ::testing::TestWithParam<Kind> {
     algebra::LinearParams linear;
     linear.solver = algebra::SolverKind::direct;
     model_ = membranes(scene::membrane_scene(scene), factory(method.name), method, linear, {});
-    discretization_ = model_->discretize(levels_.finest());
+    discretization_ = model_->discretize(levels_, static_cast<int>(levels_.levels.size()) - 1);
     X_ = discretization_->cold_start();
     report_ = complementarity::newton(discretization_->problem(), *X_, {}, {}, 10);
   }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "thixis/complementarity/active_set.hpp"
+#include "thixis/complementarity/estimate.hpp"
 #include "thixis/complementarity/kkt.hpp"
 #include "thixis/complementarity/problem.hpp"
 #include "thixis/mesh/mesh.hpp"
@@ -18,6 +19,17 @@ struct Sizes {
   GlobalIndex unknowns_all = 0;     ///< all fields with the multiplier, Dirichlet values not counted
   GlobalIndex unknowns_global = 0;  ///< rows of the Krylov system (reduced: before contact is imposed)
   GlobalIndex nonzeros = 0;         ///< of that system; 0 before it is set up
+};
+
+/// The bound of each owned cell of this rank, by component.
+struct CellEstimates {
+  std::vector<double> discretization, linearization, algebraic;
+};
+
+/// The bound of the literature (docs/methods/estimates.md, 6) with all its terms by name.
+struct PublishedEstimate {
+  complementarity::Estimate parts;
+  std::vector<std::pair<std::string, double>> terms;
 };
 
 /// A scene on one mesh.
@@ -41,6 +53,13 @@ class Discretization {
   /// |||u - u_h|||, if the exact solution is known, and |||u_h|||.
   virtual std::optional<double> energy_error(const algebra::Vector& X) const = 0;
   virtual double energy_norm(const algebra::Vector& X) const = 0;
+  /// The bound on the error at any X, an iterate or the solution. What it needs of the mesh is set up at the first call; a run that never
+  /// asks pays nothing. Collective; throws InputError where the scene has no bound.
+  virtual complementarity::Estimate estimate(const algebra::Vector& X) = 0;
+  /// Of the last call of `estimate`.
+  virtual CellEstimates cell_estimates() const = 0;
+  /// Nothing where the literature has no such bound. Collective.
+  virtual std::optional<PublishedEstimate> published_estimate(const algebra::Vector& X) = 0;
   /// Everything the verifier needs, recomputed from X cell by cell.
   virtual complementarity::KktData kkt_data(const algebra::Vector& X) const = 0;
   /// What fields are shown on.
@@ -60,7 +79,8 @@ class Model {
   /// positive and data that are not finite somewhere, unknown field names.
   /// Collective; to be asked before anything is computed or written.
   virtual void check(const mesh::Mesh& mesh, const std::vector<std::string>& field_names) const = 0;
-  virtual std::unique_ptr<Discretization> discretize(const mesh::Mesh& mesh) const = 0;
+  /// On a level of the hierarchy, which must outlive the result. Collective.
+  virtual std::unique_ptr<Discretization> discretize(const mesh::Hierarchy& hierarchy, int level) const = 0;
 };
 
 }  // namespace thixis::models

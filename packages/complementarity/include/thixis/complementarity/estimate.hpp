@@ -1,0 +1,24 @@
+#pragma once
+#include <functional>
+
+#include "thixis/algebra/fwd.hpp"
+
+namespace thixis::complementarity {
+
+/// A guaranteed bound on the error of an iterate X^{k,i} in the energy norm and its parts (docs/methods/estimates.md):
+///
+///     |||u - u_h^{k,i}||| <= total <= discretization + linearization + algebraic.
+struct Estimate {
+  double total = 0;
+  double discretization = 0;  ///< eta_disc: what a finer mesh would take away
+  double linearization = 0;   ///< eta_lin: what further Newton steps would take away; 0 at their end
+  double algebraic = 0;       ///< eta_alg: what further Krylov iterations would take away
+  /// The worst cell: max over K of eta_alg,K / max(eta_disc,K, eta_lin,K) and of eta_lin,K / eta_disc,K, for the cell-wise rule; 0 where
+  /// it is not asked for.
+  double worst_algebraic = 0, worst_linearization = 0;
+};
+
+/// Looks at an iterate. Collective; the same on all ranks.
+using Estimator = std::function<Estimate(const algebra::Vector& X)>;
+
+}  // namespace thixis::complementarity
