@@ -22,6 +22,7 @@ class LagrangeSpace final : public method::PolynomialSpace {
     set_pairing(D);
   }
 
+  bool conforming() const override { return true; }
   bool nodal_multiplier() const override { return params_.degree == 1; }
 
   std::shared_ptr<const method::CellForm> cell_form(const scene::Field& tension) const override {

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "thixis/reference/modal.hpp"
 #include "thixis/reference/quadrature.hpp"
 
 namespace thixis::hho {
@@ -46,16 +47,6 @@ std::vector<double> product(int rows, int inner, int columns, const std::vector<
 
 }  // namespace
 
-std::vector<double> legendre(int count, double s) {
-  const double x = 2 * s - 1;
-  std::vector<double> P(count), L(count);
-  for (int j = 0; j < count; ++j) {
-    P[j] = j == 0 ? 1 : j == 1 ? x : ((2 * j - 1) * x * P[j - 1] - (j - 1) * P[j - 2]) / j;
-    L[j] = std::sqrt(2 * j + 1.0) * P[j];
-  }
-  return L;
-}
-
 ReferenceCell reference_cell(const reference::CellBasis& basis) {
   ReferenceCell cell;
   const int p = cell.degree = basis.degree(), n = cell.functions = basis.size(), width = cell.unknowns = n + 3 * p;
@@ -87,7 +78,7 @@ ReferenceCell reference_cell(const reference::CellBasis& basis) {
   for (int f = 0; f < 3; ++f)
     for (int q = 0; q < line.size(); ++q) {
       const auto x = on_face(f, line.point[q]);
-      const auto B = at(cell.B, x[0], x[1]), L = legendre(p, line.point[q]);
+      const auto B = at(cell.B, x[0], x[1]), L = reference::legendre(p, line.point[q]);
       const auto psi = basis.tabulate(1, x.data()).value;
       const double weight = line.weight[q];
       for (int i = 0; i < n; ++i) {

@@ -5,9 +5,6 @@
 
 namespace thixis::hho {
 
-/// L_0 … L_count-1 at s: Legendre polynomials orthonormal on [0,1]. L_j(1-s) = (-1)^j L_j(s).
-std::vector<double> legendre(int count, double s);
-
 /// The operators of HHO on a cell, v = (v_K, v_F): the n coefficients of v_K in the basis of the cells, then p of each face f, in L_j from
 /// vertex f+1 to f+2 (mod 3). With barycentric coordinates they are the same for all cells:
 ///

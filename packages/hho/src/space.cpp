@@ -6,6 +6,7 @@
 #include "thixis/algebra/tpetra.hpp"
 #include "thixis/mesh/geometry.hpp"
 #include "thixis/method/polynomial_space.hpp"
+#include "thixis/reference/modal.hpp"
 #include "thixis/reference/quadrature.hpp"
 
 namespace thixis::hho {
@@ -132,7 +133,7 @@ class HybridSpace final : public method::PolynomialSpace {
     std::vector<double> values(x.size()), weighted(rule.size() * degree());
     g.evaluate({x.size(), x.data(), y.data()}, t, values.data());
     for (int q = 0; q < rule.size(); ++q) {
-      const auto L = legendre(degree(), rule.point[q]);
+      const auto L = reference::legendre(degree(), rule.point[q]);
       for (int j = 0; j < degree(); ++j) weighted[q * degree() + j] = rule.weight[q] * L[j];
     }
     for (std::size_t k = 0; k < faces.size(); ++k)

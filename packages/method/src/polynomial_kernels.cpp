@@ -186,6 +186,13 @@ void apply(const LocalMatrices& A, LocalIndex first, const Entry& entries, const
   Kokkos::parallel_for("thixis::method::apply", range(A.extent_int(0)), Apply{A, first, entries, u, y});
 }
 
+void gather(const Entry& entries, int functions, const Coefficients& u, const Block2& of_cells) {
+  Kokkos::parallel_for(
+      "thixis::method::gather", Kokkos::RangePolicy<>(0, entries.extent_int(0)), KOKKOS_LAMBDA(int k) {
+        for (int l = 0; l < functions; ++l) of_cells(k, l) = u(entries(k, l));
+      });
+}
+
 void transform(const Table& T, LocalIndex cells, const Entry& entries, const Coefficients& u, const Coefficients& out) {
   Kokkos::parallel_for("thixis::method::transform", range(cells), Transform{T, entries, u, out});
 }

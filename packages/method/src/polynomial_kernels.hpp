@@ -25,6 +25,9 @@ double gradient_error(const CellFunctions& functions, const mesh::Mesh& mesh, co
 /// y(e, i) = sum_j A(e, i, j) u(entries(first + e, j)).
 void apply(const LocalMatrices& A, LocalIndex first, const Entry& entries, const Coefficients& u, const Block2& y);
 
+/// of_cells(k, l) = u(entries(k, l)), l < functions.
+void gather(const Entry& entries, int functions, const Coefficients& u, const Block2& of_cells);
+
 /// out(entries(k, i)) = sum_j T(i, j) u(entries(k, j)) for the first `cells` cells.
 void transform(const Table& T, LocalIndex cells, const Entry& entries, const Coefficients& u, const Coefficients& out);
 

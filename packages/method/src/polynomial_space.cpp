@@ -416,6 +416,33 @@ void PolynomialSpace::prolongate_multiplier(const Space& coarse, const Vector& c
   });
 }
 
+// -- for error estimates ------------------------------------------------------------------------------------------------------------
+
+void PolynomialSpace::share(const Vector& R, const View<double**>& moments) const {
+  const auto entries = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), structure_.element_entries);
+  const auto column = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), numbering_.column_of_entry);
+  if (sharers_.empty()) {  // all cells of an unknown of this rank are patch cells
+    sharers_.assign(algebra::local_size(*numbering_.rows), 0);
+    for (int k = 0; k < cells_.extent_int(0); ++k)
+      for (int l = 0; l < functions(); ++l) {
+        const LocalIndex row = column(entries(k, l));
+        if (row >= 0 && row < static_cast<LocalIndex>(sharers_.size())) ++sharers_[row];
+      }
+  }
+  Vector part(R, Teuchos::Copy);
+  {
+    const auto values = algebra::host_view(part);
+    for (std::size_t row = 0; row < sharers_.size(); ++row)
+      if (sharers_[row] > 1) values(row) /= sharers_[row];
+  }
+  const Coefficients nothing("thixis::method::nothing", structure_.entries.size());
+  gather(structure_.element_entries, functions(), complete(part, nothing), moments);
+}
+
+void PolynomialSpace::native_flux(const scene::Field&, const Coefficients&, const BoundaryValues&, double, const View<double**>&) const {
+  throw core::Error(core::ExitCode::internal, "This method has no flux of its own.");
+}
+
 // -- errors -------------------------------------------------------------------------------------------------------------------------
 
 double PolynomialSpace::error(const scene::Field& tension, const Coefficients& u, const Gradient* exact, double t) const {

@@ -9,6 +9,7 @@
 #include "thixis/mesh/geometry.hpp"
 #include "thixis/mesh/host.hpp"
 #include "thixis/method/polynomial_space.hpp"
+#include "thixis/reference/modal.hpp"
 #include "thixis/reference/quadrature.hpp"
 
 namespace thixis::hho {
@@ -108,7 +109,7 @@ Dense by_definition(const Cell& K, Mu mu, double kappa, bool cell_length) {
       const auto& [a, b] = K.face_ends[f];
       const double s = line.point[q];
       const Point x = {(1 - s) * a[0] + s * b[0], (1 - s) * a[1] + s * b[1]}, normal = K.normal(f);
-      const auto tests = K.monomials(x), values = K.psi(x), L = legendre(p, s);
+      const auto tests = K.monomials(x), values = K.psi(x), L = reference::legendre(p, s);
       for (std::size_t k = 0; k < m; ++k)
         for (int d = 0; d < 2; ++d) {
           const double weight = line.weight[q] * K.length(f) * tests[k] * normal[d];
@@ -210,7 +211,7 @@ TEST(Reconstruction, is_the_gradient_of_polynomials) {
         for (int q = 0; q < line.size(); ++q) {
           const auto& [a, b] = K.face_ends[f];
           const double s = line.point[q];
-          const auto L = legendre(p, s);
+          const auto L = reference::legendre(p, s);
           for (int j = 0; j < p; ++j) v[n + f * p + j] += line.weight[q] * L[j] * u((1 - s) * a[0] + s * b[0], (1 - s) * a[1] + s * b[1]);
         }
       for (const Point xi : {Point{0.1, 0.2}, Point{0.7, 0.1}, Point{0.3, 0.6}}) {

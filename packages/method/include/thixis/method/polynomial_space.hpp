@@ -64,6 +64,30 @@ class PolynomialSpace : public Space {
   double energy_error(const scene::Field& tension, const Coefficients& u, const Gradient& exact, double t) const final;
   double penetration(const Coefficients& u, const scene::Field* obstacle, double t) const final;
 
+  // -- what error estimates read ----------------------------------------------------------------------------------------------------
+  const reference::CellBasis& basis() const { return basis_; }
+  const View<const LocalIndex*>& cells() const { return cells_; }  ///< patch cells, the owned ones first
+  const CellQuadrature& quadrature() const { return quadrature_; }
+  const Structure& structure() const { return structure_; }
+  const Numbering& numbering() const { return numbering_; }
+  /// Patch position of a local cell, -1 if it is none.
+  LocalIndex position(LocalIndex cell) const { return position_[cell]; }
+  /// Whether functions of the space are continuous.
+  virtual bool conforming() const { return false; }
+  /// Shares a residual R out to the cells: moments(k, l) = (r, psi_l)_K on patch cell k, so that the sum over the cells of each unknown is
+  /// R_l; an unknown that cells share gives each of them the same part. Collective.
+  virtual void share(const algebra::Vector& R, const View<double**>& moments) const;
+  /// q: the flux of the method lies in RT_q.
+  virtual int flux_degree() const { return basis_.degree(); }
+  /// The flux -mu grad u as the method itself has it, H(div)-conforming, in modal coefficients (reference::Modal, [2][dim P_{q+1}]) on the
+  /// owned cells: with R = F - (-1)^alpha D lambda - a(u, ·) shared out as r,
+  ///
+  ///     (div sigma, v)_K = (f - (-1)^alpha lambda_h - r, v)_K      for all v in P_q(K),
+  ///
+  /// whatever u is. `boundary`: the data that u_h belongs to. For spaces that are not conforming. Collective.
+  virtual void native_flux(const scene::Field& tension, const Coefficients& u, const BoundaryValues& boundary, double t,
+                           const View<double**>& sigma) const;
+
   output::Grid display() const final;
   std::vector<double> shown(const Coefficients& u) const final;
   std::vector<double> coefficients_shown(const Coefficients& u) const final;
@@ -88,8 +112,6 @@ class PolynomialSpace : public Space {
   std::vector<double> at_entries(const scene::Field& field, const std::vector<LocalIndex>& entries, double t) const;
   /// The same number D for every contact point.
   void set_pairing(Teuchos::RCP<const algebra::Vector> pairing) { pairing_ = std::move(pairing); }
-  /// Patch position of a local cell, -1 if it is none.
-  LocalIndex position(LocalIndex cell) const { return position_[cell]; }
 
   const mesh::Mesh& mesh_;
   mesh::HostMesh host_;
@@ -106,6 +128,7 @@ class PolynomialSpace : public Space {
   double error(const scene::Field& tension, const Coefficients& u, const Gradient* exact, double t) const;
 
   std::vector<LocalIndex> position_;
+  mutable std::vector<int> sharers_;  ///< cells of each unknown of this rank; made when a residual is first shared out
   algebra::MapPtr points_;
   algebra::GraphPtr graph_;
   Teuchos::RCP<const algebra::Vector> pairing_;

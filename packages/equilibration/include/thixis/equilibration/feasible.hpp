@@ -1,0 +1,52 @@
+#pragma once
+#include <array>
+#include <memory>
+
+#include "thixis/equilibration/cell_fields.hpp"
+#include "thixis/method/polynomial_space.hpp"
+#include "thixis/scene/field.hpp"
+
+namespace thixis::equilibration {
+
+/// The feasible pair s of the bound (docs/methods/estimates.md, 4): s_1 >= s_2 in Omega (s >= psi for one membrane over an obstacle),
+/// s_alpha = g_alpha exactly on the held boundary, made from u_h in steps
+///
+///     u_h  ->  s_c: continuous (nodal averages, Dirichlet nodes from g; u_h itself for conforming spaces)
+///          ->  s_N: gaps below zero at the nodes are closed, each membrane giving way by theta_alpha (mu_2, mu_1 over mu_1 + mu_2)
+///          ->  s:   + lift of g - g_h, then moved apart by what is left of the negative part of the gap, pointwise.
+///
+/// Energies are those of the broken gradient, |||v|||_K² = sum_alpha ∫_K mu_alpha |grad v_alpha|².
+class FeasiblePair {
+ public:
+  struct Problem {
+    int count = 2;  ///< membranes; 1: over the obstacle
+    std::array<scene::FieldPtr, 2> tension;
+    std::array<method::BoundaryValues, 2> boundary;
+    scene::FieldPtr obstacle;  ///< count = 1
+  };
+  /// Set up once per mesh: the lift of g - g_h, its energy being nearly least over the cells that touch the boundary. Collective. The space
+  /// must outlive it.
+  FeasiblePair(const method::PolynomialSpace& space, const Problem& problem);
+  ~FeasiblePair();
+  FeasiblePair(const FeasiblePair&) = delete;
+  FeasiblePair& operator=(const FeasiblePair&) = delete;
+
+  /// Of the owned cells.
+  struct Parts {
+    View<double*> whole;     ///< |||s - u_h|||_K
+    View<double*> at_nodes;  ///< |||s_N - s_c|||_K: what further Newton steps take away
+    View<double*> rest;      ///< a bound on what remains: |||s - s_N|||_K + |||s_c - u_h|||_K
+    View<double*> contact;   ///< (lambda, s_1 - s_2)_K
+  };
+  /// u: coefficients of each membrane; `lambda`: the non-negative multiplier, densities of degree `degree` in modal coefficients
+  /// (owned cell, dim P_degree). Collective. Overwrites `parts`, which may be empty at first.
+  void evaluate(const method::Coefficients (&u)[2], const ConstCellTable& lambda, int degree, Parts& parts) const;
+  /// |||lift of g - g_h||| over all cells.
+  double boundary_energy() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace thixis::equilibration
