@@ -68,7 +68,7 @@ class PolynomialSpace : public Space {
   const reference::CellBasis& basis() const { return basis_; }
   const View<const LocalIndex*>& cells() const { return cells_; }  ///< patch cells, the owned ones first
   const CellQuadrature& quadrature() const { return quadrature_; }
-  const Structure& structure() const { return structure_; }
+  const Structure& coefficients() const { return structure_; }
   const Numbering& numbering() const { return numbering_; }
   /// Patch position of a local cell, -1 if it is none.
   LocalIndex position(LocalIndex cell) const { return position_[cell]; }
