@@ -10,6 +10,7 @@
 #include "membrane_problem.hpp"
 #include "thixis/core/error.hpp"
 #include "thixis/core/timer.hpp"
+#include "thixis/equilibration/guaranteed_bound.hpp"
 
 namespace thixis::models {
 namespace {
@@ -133,10 +134,38 @@ class MembraneDiscretization final : public Discretization {
     return std::sqrt(sum);
   }
 
-  complementarity::Estimate estimate(const Vector&) override {
-    throw core::InputError("stopping/estimate: no bound is served; write false.");
+  complementarity::Estimate estimate(const Vector& X) override {
+    if (!bound_) {
+      const core::Region region("estimate set-up");
+      bound_ = std::make_unique<equilibration::GuaranteedBound>(polynomials(), contact_problem(), hierarchy_, level_);
+    }
+    const Fields x = fields(X);
+    Vector R(problem_->map()), gap_l(problem_->points());
+    problem_->equations(X, R);
+    Fields r = fields(R);
+    r.u.scale(-1);
+    gap(problem_->membranes(), x.u, gap_l);
+    equilibration::Iterate iterate;
+    iterate.lambda = &x.lambda;
+    iterate.gap = &gap_l;
+    const auto residual0 = r.u.getVector(0), residual1 = r.u.getVector(scene_.count - 1);
+    iterate.residual[0] = residual0.get();
+    iterate.residual[1] = residual1.get();
+    for (int alpha = 0; alpha < scene_.count; ++alpha) iterate.u[alpha] = membrane(x, alpha);
+    return (*bound_)(iterate);
   }
-  CellEstimates cell_estimates() const override { return {}; }
+
+  CellEstimates cell_estimates() const override {
+    CellEstimates of_cells;
+    if (!bound_) return of_cells;
+    const auto copy = [](const mesh::View<double*>& values) {
+      const auto host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), values);
+      return std::vector<double>(host.data(), host.data() + host.extent(0));
+    };
+    const auto& parts = bound_->cells();
+    return {copy(parts.discretization), copy(parts.linearization), copy(parts.algebraic)};
+  }
+
   std::optional<PublishedEstimate> published_estimate(const Vector&) override { return std::nullopt; }
 
   complementarity::KktData kkt_data(const Vector& X) const override {
@@ -179,6 +208,21 @@ class MembraneDiscretization final : public Discretization {
   Fields fields() const { return Fields(problem_->membranes()); }
   Fields fields(const Vector& X) const { return Fields(problem_->membranes(), X); }
   Coefficients membrane(const Fields& x, int alpha) const { return space_->complete(*x.u.getVector(alpha), lift_[alpha]); }
+
+  const method::PolynomialSpace& polynomials() const { return dynamic_cast<const method::PolynomialSpace&>(*space_); }
+
+  equilibration::ContactProblem contact_problem() const {
+    const Boundary boundary = boundary_of(scene_, space_->mesh());
+    equilibration::ContactProblem contact;
+    contact.count = scene_.count;
+    contact.obstacle = scene_.obstacle;
+    for (int alpha = 0; alpha < scene_.count; ++alpha) {
+      contact.tension[alpha] = scene_.tension[alpha];
+      contact.force[alpha] = scene_.force[alpha];
+      contact.boundary[alpha] = boundary.values[alpha];
+    }
+    return contact;
+  }
 
   Coefficients lift_of_obstacle(const Boundary& boundary) const {
     method::BoundaryValues psi = boundary.values[0];
@@ -226,6 +270,7 @@ class MembraneDiscretization final : public Discretization {
   Coefficients obstacle_;         ///< the interpolant of psi, for count = 1
   Teuchos::RCP<Vector> body_[2];  ///< loads, before the lifts are moved to the right
   std::unique_ptr<MembraneProblem> problem_;
+  std::unique_ptr<equilibration::GuaranteedBound> bound_;  ///< made when an estimate is first asked for
 };
 
 class Membranes final : public Model {

@@ -1,5 +1,6 @@
 #include "thixis/reference/cell_basis.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "basix.hpp"
@@ -55,6 +56,13 @@ std::vector<double> identity(int n) {
 }
 
 }  // namespace
+
+Bernstein bernstein(int degree) {
+  std::vector<double> lattice;
+  for (int i = 0; i <= degree; ++i)
+    for (int j = 0; i + j <= degree; ++j) lattice.insert(lattice.end(), {i / std::max(1.0, 1.0 * degree), j / std::max(1.0, 1.0 * degree)});
+  return bernstein_on(lattice, degree);
+}
 
 std::vector<double> inverse(int size, const std::vector<double>& matrix) { return basix_interface::inverse(size, matrix); }
 

@@ -51,6 +51,9 @@ class CellBasis {
   std::vector<double> points_, lattice_, from_values_, to_bernstein_, integrals_, mass_;
 };
 
+/// The Bernstein basis of degree 0 … 4, in the order of its exponents.
+Bernstein bernstein(int degree);
+
 /// Inverse of a regular matrix, flat, row by row.
 std::vector<double> inverse(int size, const std::vector<double>& matrix);
 

@@ -1,0 +1,375 @@
+#include "thixis/equilibration/guaranteed_bound.hpp"
+
+#include <cmath>
+
+#include "multiplier.hpp"
+#include "sources.hpp"
+#include "stress.hpp"
+#include "tables.hpp"
+#include "thixis/algebra/tpetra.hpp"
+#include "thixis/equilibration/feasible.hpp"
+#include "thixis/equilibration/multilevel_flux.hpp"
+#include "thixis/equilibration/patch_flux.hpp"
+#include "thixis/mesh/ancestry.hpp"
+
+namespace thixis::equilibration {
+namespace {
+
+using algebra::Vector;
+constexpr double pi = 3.14159265358979323846;
+
+/// Modal coefficients of the representative r of a residual, (r, psi_l)_K = moments(k, l), projected on P_q.
+struct Represent {
+  ConstCellTable moments;
+  Matrix from_moments;  ///< (mode, l)
+  CellTable r;          ///< out, overwritten
+  KOKKOS_FUNCTION void operator()(int k) const {
+    for (int m = 0; m < r.extent_int(1); ++m) {
+      double sum = 0;
+      for (int l = 0; l < from_moments.extent_int(1); ++l) sum += from_moments(m, l) * moments(k, l);
+      r(k, m) = sum;
+    }
+  }
+};
+
+/// g_a = psi_a (f - r) - (-1)^alpha (lambda^ of a) - w·grad psi_a, for the three vertices of a cell; the target is -w.
+struct PatchData {
+  ConstCellTable f, r_alg, r_lin, lambda, w;
+  double sign;                                               ///< -(-1)^alpha
+  Kokkos::View<const double***, Kokkos::LayoutRight> times;  ///< (i, m, k): lambda_i phi_k -> phi_m
+  CellTable density, target;                                 ///< out, overwritten
+
+  KOKKOS_FUNCTION void operator()(int k) const {
+    const int n = times.extent_int(1), wide = times.extent_int(2);
+    double source[reference::dimension(5)];
+    for (int m = 0; m < wide; ++m) source[m] = f(k, m) - (m < n ? r_alg(k, m) + r_lin(k, m) : 0);
+    for (int i = 0; i < 3; ++i)
+      for (int m = 0; m < n; ++m) {
+        const double slope = i == 0 ? -w(k, m) - w(k, n + m) : w(k, (i - 1) * n + m);
+        double sum = sign * lambda(k, i * n + m) - slope;
+        for (int j = 0; j < wide; ++j) sum += times(i, m, j) * source[j];
+        density(k, i * n + m) = sum;
+      }
+    for (int m = 0; m < 2 * n; ++m) target(k, m) = -w(k, m);
+  }
+};
+
+void add(const ConstCellTable& a, const CellTable& sum) {
+  Kokkos::parallel_for(
+      "thixis::equilibration::add", Kokkos::RangePolicy<>(0, sum.extent_int(0)), KOKKOS_LAMBDA(int K) {
+        for (int i = 0; i < sum.extent_int(1); ++i) sum(K, i) += a(K, i);
+      });
+}
+
+bool vanishes(const Vector& v) { return v.normInf() == 0; }
+
+/// What belongs to one membrane.
+struct Membrane {
+  std::vector<double> least_tension;
+  Sources data;
+  std::unique_ptr<Stress> stress;
+  CellTable w, r_alg, r_lin, sigma_disc, sigma_alg, sigma_lin;
+  bool has_alg = false, has_lin = false;
+};
+
+}  // namespace
+
+struct GuaranteedBound::Impl {
+  const method::PolynomialSpace& space;
+  ContactProblem problem;
+  const mesh::Mesh& mesh;
+  core::Comm comm;
+  int q, n, flux;
+  LocalIndex owned, patch_cells;
+  std::vector<bool> held;
+  MultilevelFlux lift;
+  FeasiblePair feasible;
+  std::unique_ptr<NonNegativeMultiplier> multiplier;
+  std::unique_ptr<PatchFlux> patches;
+  Membrane membrane[2];
+  Matrix from_moments;
+  Kokkos::View<const double***, Kokkos::LayoutRight> times;
+  Metrics metric;
+  CellTable moments, lambda, positive, patch_lambda, patch_density, patch_target, sigma;
+  View<double*> h, distance, distance_disc, size_alg, size_lin, contact_lin, multiplier_rest;
+  FeasiblePair::Parts parts;
+  CellParts cells;
+
+  static std::vector<bool> held_tags(const ContactProblem& problem) {
+    std::vector<bool> held;
+    for (const auto& value : problem.boundary[0].dirichlet) held.push_back(value != nullptr);
+    return held;
+  }
+
+  Impl(const method::PolynomialSpace& of, const ContactProblem& contact, const mesh::Hierarchy& hierarchy, int level)
+      : space(of),
+        problem(contact),
+        mesh(of.mesh()),
+        comm(mesh.comm),
+        q(of.flux_degree()),
+        n(reference::dimension(q)),
+        flux(2 * reference::dimension(q + 1)),
+        owned(mesh.owned_cells),
+        patch_cells(of.cells().extent_int(0)),
+        held(held_tags(contact)),
+        lift(mesh::ancestry(hierarchy, level), comm, held, q),
+        feasible(of, {contact.count, contact.tension, contact.boundary, contact.obstacle}),
+        metric(metrics(mesh, of.cells())) {
+    const auto table = [](const std::string& label, LocalIndex rows, int columns) { return CellTable(label, rows, columns); };
+    const bool conforming = space.conforming();
+    multiplier = conforming ? patchwise_multiplier(space, held) : cellwise_multiplier(space);
+    if (conforming) {
+      patches = std::make_unique<PatchFlux>(mesh, space.cells(), held, q);
+      patch_lambda = table("thixis::equilibration::patch_lambda", patch_cells, 3 * n);
+      patch_density = table("thixis::equilibration::patch_density", patch_cells, 3 * n);
+      patch_target = table("thixis::equilibration::patch_target", patch_cells, 2 * n);
+    } else {
+      positive = table("thixis::equilibration::positive_multiplier", patch_cells, n);
+    }
+    moments = table("thixis::equilibration::moments", patch_cells, space.basis().size());
+    lambda = table("thixis::equilibration::lambda", owned, n);
+    sigma = table("thixis::equilibration::sigma", owned, flux);
+    for (int alpha = 0; alpha < problem.count; ++alpha) {
+      Membrane& m = membrane[alpha];
+      m.least_tension = least_tension(space, *problem.tension[alpha]);
+      m.data = sources(space, q, *problem.force[alpha], problem.boundary[alpha], m.least_tension);
+      m.stress = make_stress(space, q, *problem.tension[alpha], m.least_tension);
+      m.w = table("thixis::equilibration::stress", patch_cells, 2 * n);
+      m.r_alg = table("thixis::equilibration::r_alg", patch_cells, n);
+      m.r_lin = table("thixis::equilibration::r_lin", patch_cells, n);
+      m.sigma_disc = table("thixis::equilibration::sigma_disc", owned, flux);
+      m.sigma_alg = table("thixis::equilibration::sigma_alg", owned, flux);
+      m.sigma_lin = table("thixis::equilibration::sigma_lin", owned, flux);
+    }
+    tabulate();
+    for (View<double*>* of_cells : {&h, &distance, &distance_disc, &size_alg, &size_lin, &contact_lin, &multiplier_rest,
+                                    &cells.discretization, &cells.linearization, &cells.algebraic})
+      *of_cells = View<double*>("thixis::equilibration::of_cells", owned);
+    const auto diameter = diameters(mesh);
+    const auto h_host = Kokkos::create_mirror_view(h);
+    std::copy(diameter.begin(), diameter.end(), h_host.data());
+    Kokkos::deep_copy(h, h_host);
+  }
+
+  void tabulate() {
+    const auto& basis = space.basis();
+    const reference::Modal modal(basis.degree()), wider(q + 1);
+    from_moments = matrix("thixis::equilibration::from_moments", basis.size(), basis.size(), equilibration::from_moments(basis, modal));
+    const int wide = wider.size();
+    const Kokkos::View<double***, Kokkos::LayoutRight> all("thixis::equilibration::times", 3, n, wide);
+    const auto host = Kokkos::create_mirror_view(all);
+    for (int i = 0; i < 3; ++i)
+      for (int m = 0; m < n; ++m)
+        for (int k = 0; k < wide; ++k) host(i, m, k) = wider.times_barycentric(i)[m * wide + k];
+    Kokkos::deep_copy(all, host);
+    times = all;
+  }
+
+  /// R as a polynomial in every patch cell; false where it is zero.
+  bool represent(const Vector& R, const CellTable& r) const {
+    if (vanishes(R)) {
+      Kokkos::deep_copy(r, 0);
+      return false;
+    }
+    space.share(R, moments);
+    Kokkos::parallel_for("thixis::equilibration::represent", Kokkos::RangePolicy<>(0, patch_cells), Represent{moments, from_moments, r});
+    return true;
+  }
+
+  void equilibrate(const Iterate& iterate, int alpha, const Vector& cut_off) {
+    Membrane& m = membrane[alpha];
+    m.has_alg = represent(*iterate.residual[alpha], m.r_alg);
+    m.has_lin = represent(cut_off, m.r_lin);
+    for (const auto& [has, r, flux_of] : {std::tuple(m.has_alg, m.r_alg, m.sigma_alg), std::tuple(m.has_lin, m.r_lin, m.sigma_lin)}) {
+      if (has) lift(r, flux_of);
+      else Kokkos::deep_copy(flux_of, 0);
+    }
+    (*m.stress)(iterate.u[alpha], m.w);
+    if (!patches) return space.native_flux(*problem.tension[alpha], iterate.u[alpha], problem.boundary[alpha], 0, m.sigma_disc);
+    Kokkos::parallel_for(
+        "thixis::equilibration::patch_data", Kokkos::RangePolicy<>(0, patch_cells),
+        PatchData{m.data.force, m.r_alg, m.r_lin, patch_lambda, m.w, alpha == 0 ? 1.0 : -1.0, times, patch_density, patch_target});
+    (*patches)({patch_density, patch_target, m.data.traction}, m.sigma_disc);
+  }
+
+  /// Values at contact points, 0 at other unknowns.
+  void extend(const Vector& at_points, Vector& all) const {
+    const auto in = algebra::host_view(at_points);
+    const auto out = algebra::host_view(all);
+    for (std::size_t l = 0; l < in.extent(0); ++l) out(l) = in(l);
+  }
+
+  /// M_l = D_l max(X3_l, 0) on points(), -D_l min(X3_l, 0) on map().
+  void split_multiplier(const Vector& X3, Vector& above, Vector& below) const {
+    const auto lambda_l = algebra::host_view(X3), D = algebra::host_view(space.pairing());
+    const auto plus = algebra::host_overwrite(above);
+    const auto minus = algebra::host_view(below);
+    for (std::size_t l = 0; l < lambda_l.extent(0); ++l) {
+      plus(l) = D(l) * std::max(lambda_l(l), 0.0);
+      minus(l) = -D(l) * std::min(lambda_l(l), 0.0);
+    }
+  }
+
+  /// sum_l M_l max(K_l, 0), shared out to the cells.
+  void contact_at_points(const Vector& above, const Vector& gap) {
+    Vector product(space.map());
+    {
+      const auto M = algebra::host_view(above), K = algebra::host_view(gap);
+      const auto out = algebra::host_view(product);
+      for (std::size_t l = 0; l < M.extent(0); ++l) out(l) = M(l) * std::max(K(l), 0.0);
+    }
+    if (vanishes(product)) return Kokkos::deep_copy(contact_lin, 0);
+    space.share(product, moments);
+    const auto part = moments;
+    const auto out = contact_lin;
+    Kokkos::parallel_for(
+        "thixis::equilibration::contact_at_points", Kokkos::RangePolicy<>(0, owned), KOKKOS_LAMBDA(int K) {
+          out(K) = 0;
+          for (int l = 0; l < part.extent_int(1); ++l) out(K) += part(K, l);
+        });
+  }
+
+  /// Where the method has its own fluxes: |lambda^ - Pi_q lambda_h^+|_K, lambda_h^+ the function with the moments M.
+  void compare_multipliers(const Vector& above) {
+    if (patches) return;
+    if (!represent(above, positive)) return Kokkos::deep_copy(multiplier_rest, 0);
+    const ConstCellTable exact = positive, ours = lambda;
+    const auto det = metric;
+    const auto out = multiplier_rest;
+    Kokkos::parallel_for(
+        "thixis::equilibration::compare_multipliers", Kokkos::RangePolicy<>(0, owned), KOKKOS_LAMBDA(int K) {
+          double square = 0;
+          for (int m = 0; m < ours.extent_int(1); ++m) square += (ours(K, m) - exact(K, m)) * (ours(K, m) - exact(K, m));
+          out(K) = Kokkos::Experimental::sqrt(square / det(K).det);
+        });
+  }
+
+  complementarity::Estimate sum_up(const Iterate& iterate);
+  void find_worst_cells(complementarity::Estimate& eta) const;
+};
+
+/// The bound, its parts, and those of every cell.
+complementarity::Estimate GuaranteedBound::Impl::sum_up(const Iterate& iterate) {
+  enum { of_flux, of_disc, of_alg, of_lin, of_whole, of_rest, of_nodes, contact, contact_nodes, count };
+  std::vector<double> sum(count, 0.0);
+  const auto on_host = [](const auto& v) { return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), v); };
+  std::vector<double> disc_K(owned, 0.0), lin_K(owned, 0.0), alg_K(owned, 0.0);
+  const auto h_K = on_host(h), rest_of_multiplier = on_host(multiplier_rest);
+  for (int alpha = 0; alpha < problem.count; ++alpha) {
+    const Membrane& m = membrane[alpha];
+    m.stress->distance(iterate.u[alpha], m.w, m.sigma_disc, distance_disc);
+    Kokkos::deep_copy(sigma, m.sigma_disc);
+    if (m.has_alg) add(m.sigma_alg, sigma);
+    if (m.has_lin) add(m.sigma_lin, sigma);
+    m.stress->distance(iterate.u[alpha], m.w, sigma, distance);
+    m.stress->size(m.sigma_alg, size_alg);
+    m.stress->size(m.sigma_lin, size_lin);
+    const auto volume = on_host(m.data.oscillation), traction = on_host(m.data.traction_oscillation), all = on_host(distance),
+               disc = on_host(distance_disc), alg = on_host(size_alg), lin = on_host(size_lin);
+    for (LocalIndex K = 0; K < owned; ++K) {
+      const double of_lambda = patches ? 0 : h_K(K) / pi * rest_of_multiplier(K) / std::sqrt(m.least_tension[K]);
+      const double oscillation = std::hypot(volume(K), of_lambda) + traction(K);
+      sum[of_flux] += (all(K) + oscillation) * (all(K) + oscillation);
+      disc_K[K] += (disc(K) + oscillation) * (disc(K) + oscillation);
+      alg_K[K] += alg(K) * alg(K);
+      lin_K[K] += lin(K) * lin(K);
+    }
+  }
+  const auto whole = on_host(parts.whole), rest = on_host(parts.rest), nodes = on_host(parts.at_nodes), together = on_host(parts.contact),
+             at_points = on_host(contact_lin);
+  const auto of_disc_K = Kokkos::create_mirror_view(cells.discretization), of_lin_K = Kokkos::create_mirror_view(cells.linearization),
+             of_alg_K = Kokkos::create_mirror_view(cells.algebraic);
+  for (LocalIndex K = 0; K < owned; ++K) {
+    sum[of_disc] += disc_K[K];
+    sum[of_alg] += alg_K[K];
+    sum[of_lin] += lin_K[K];
+    sum[of_whole] += whole(K) * whole(K);
+    sum[of_rest] += rest(K) * rest(K);
+    sum[of_nodes] += nodes(K) * nodes(K);
+    sum[contact] += together(K);
+    sum[contact_nodes] += at_points(K);
+    of_disc_K(K) = std::sqrt(disc_K[K] + rest(K) * rest(K) + 2 * std::abs(together(K) - at_points(K)));
+    of_lin_K(K) = std::sqrt(lin_K[K] + nodes(K) * nodes(K) + 2 * at_points(K));
+    of_alg_K(K) = std::sqrt(alg_K[K]);
+  }
+  Kokkos::deep_copy(cells.discretization, of_disc_K);
+  Kokkos::deep_copy(cells.linearization, of_lin_K);
+  Kokkos::deep_copy(cells.algebraic, of_alg_K);
+  comm.sum(sum);
+  complementarity::Estimate eta;
+  eta.total = std::sqrt(sum[of_flux] + sum[of_whole] + 2 * sum[contact]);
+  eta.discretization = std::sqrt(sum[of_disc]) + std::sqrt(sum[of_rest]) + std::sqrt(2 * std::abs(sum[contact] - sum[contact_nodes]));
+  eta.linearization = std::sqrt(sum[of_lin]) + std::sqrt(sum[of_nodes]) + std::sqrt(2 * sum[contact_nodes]);
+  eta.algebraic = std::sqrt(sum[of_alg]);
+  find_worst_cells(eta);
+  return eta;
+}
+
+/// Cells where the solution is exact have no discretization error to compare with: a thousandth of the mean one stands in for it.
+void GuaranteedBound::Impl::find_worst_cells(complementarity::Estimate& eta) const {
+  const double least = 1e-3 * eta.discretization / std::sqrt(static_cast<double>(mesh.global_cells));
+  const auto disc = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), cells.discretization),
+             lin = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), cells.linearization),
+             alg = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), cells.algebraic);
+  std::vector<double> worst(2, 0.0);
+  for (LocalIndex K = 0; K < owned; ++K) {
+    const double compared = std::max(disc(K), least);
+    if (alg(K) > 0) worst[0] = std::max(worst[0], alg(K) / std::max(compared, lin(K)));
+    if (lin(K) > 0) worst[1] = std::max(worst[1], lin(K) / compared);
+  }
+  comm.max(worst);
+  eta.worst_algebraic = worst[0];
+  eta.worst_linearization = worst[1];
+}
+
+GuaranteedBound::GuaranteedBound(const method::PolynomialSpace& space, const ContactProblem& problem, const mesh::Hierarchy& hierarchy,
+                                 int level)
+    : impl_(std::make_unique<Impl>(space, problem, hierarchy, level)) {}
+GuaranteedBound::~GuaranteedBound() = default;
+
+complementarity::Estimate GuaranteedBound::operator()(const Iterate& iterate) {
+  Impl& in = *impl_;
+  Vector above(in.space.points()), cut_off(in.space.map());
+  in.split_multiplier(*iterate.lambda, above, cut_off);
+  (*in.multiplier)(above, in.lambda, in.patch_lambda);
+  Vector on_map(in.space.map());
+  in.extend(above, on_map);
+  in.compare_multipliers(on_map);
+  for (int alpha = 0; alpha < in.problem.count; ++alpha) {
+    in.equilibrate(iterate, alpha, cut_off);  // R_lin = (-1)^alpha D min(X3, 0)
+    cut_off.scale(-1);
+  }
+  in.feasible.evaluate(iterate.u, in.lambda, in.q, in.parts);
+  in.contact_at_points(above, *iterate.gap);
+  return in.sum_up(iterate);
+}
+
+const GuaranteedBound::CellParts& GuaranteedBound::cells() const { return impl_->cells; }
+int GuaranteedBound::flux_degree() const { return impl_->q; }
+
+GuaranteedBound::Fluxes GuaranteedBound::fluxes(int alpha) const {
+  const Impl& in = *impl_;
+  const Membrane& m = in.membrane[alpha];
+  const CellTable density("thixis::equilibration::density", in.owned, in.n);
+  const ConstCellTable lambda = in.patches ? in.lambda : in.positive, force = m.data.force;
+  const double sign = alpha == 0 ? 1 : -1;
+  Kokkos::parallel_for(
+      "thixis::equilibration::density", Kokkos::RangePolicy<>(0, in.owned), KOKKOS_LAMBDA(int K) {
+        for (int k = 0; k < density.extent_int(1); ++k) density(K, k) = force(K, k) + sign * lambda(K, k);
+      });
+  return {m.sigma_disc, m.sigma_lin, m.sigma_alg, density, m.r_lin, m.r_alg};
+}
+
+std::size_t GuaranteedBound::bytes() const {
+  const Impl& in = *impl_;
+  std::size_t tables = in.moments.size() + in.lambda.size() + in.positive.size() + in.patch_lambda.size() + in.patch_density.size() +
+                       in.patch_target.size() + in.sigma.size();
+  for (int alpha = 0; alpha < in.problem.count; ++alpha) {
+    const Membrane& m = in.membrane[alpha];
+    tables +=
+        m.data.force.size() + m.w.size() + m.r_alg.size() + m.r_lin.size() + m.sigma_disc.size() + m.sigma_alg.size() + m.sigma_lin.size();
+  }
+  return sizeof(double) * tables + in.lift.bytes() + in.multiplier->bytes() + (in.patches ? in.patches->bytes() : 0);
+}
+
+}  // namespace thixis::equilibration

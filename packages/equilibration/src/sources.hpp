@@ -1,0 +1,31 @@
+#pragma once
+#include <vector>
+
+#include "thixis/equilibration/cell_fields.hpp"
+#include "thixis/method/polynomial_space.hpp"
+
+namespace thixis::equilibration {
+
+/// What is known of the data of one membrane, cell by cell, once per mesh.
+struct Sources {
+  CellTable force;                     ///< (patch cell, dim P_{q+1}): density of the projection of f
+  View<double*> oscillation;           ///< (owned cell): h_K/pi mu^{-1/2} |f - Pi_q f|_K
+  View<double*> traction_oscillation;  ///< (owned cell): what Neumann data leave (see below)
+  CellTable traction;                  ///< for PatchFlux: Legendre moments of -psi_a t on Neumann faces; empty where there are none
+};
+
+/// The oscillation of Neumann data t on a face F of K enters by the trace inequality for functions without mean in K,
+///
+///     |v|²_F <= |F| h_K²/|K| (1 + pi)/pi² |grad v|²_K,
+///
+/// as (that constant)^{1/2} mu^{-1/2} |t - Pi_q t|_F. mu: its least value in the cell. Collective.
+Sources sources(const method::PolynomialSpace& space, int q, const scene::Field& force, const method::BoundaryValues& boundary,
+                const std::vector<double>& least_tension);
+
+/// The least value of the tension at the quadrature points of each owned cell. Collective; throws InputError where it is not positive.
+std::vector<double> least_tension(const method::PolynomialSpace& space, const scene::Field& tension);
+
+/// Longest side of each owned cell.
+std::vector<double> diameters(const mesh::Mesh& mesh);
+
+}  // namespace thixis::equilibration

@@ -1,0 +1,19 @@
+#pragma once
+#include <vector>
+
+#include "thixis/equilibration/cell_fields.hpp"
+
+namespace thixis::equilibration {
+
+/// The patches of all vertices of owned cells: for patch a its cells as positions among the patch cells, and which of their vertices it is.
+struct VertexPatches {
+  View<LocalIndex*> vertex;  ///< of the mesh
+  View<LocalIndex*> offset;  ///< entries of patch a: offset(a) … offset(a+1)-1
+  View<LocalIndex*> cell;    ///< position
+  View<int*> corner;         ///< local vertex of that cell
+  View<bool*> held;          ///< on the held boundary
+  LocalIndex size() const { return vertex.extent_int(0); }
+};
+VertexPatches vertex_patches(const mesh::Mesh& mesh, const View<const LocalIndex*>& cells, const std::vector<bool>& held);
+
+}  // namespace thixis::equilibration
