@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "multiplier.hpp"
+#include "patch_data.hpp"
 #include "sources.hpp"
 #include "stress.hpp"
 #include "tables.hpp"
@@ -17,42 +18,6 @@ namespace {
 
 using algebra::Vector;
 constexpr double pi = 3.14159265358979323846;
-
-/// Modal coefficients of the representative r of a residual, (r, psi_l)_K = moments(k, l), projected on P_q.
-struct Represent {
-  ConstCellTable moments;
-  Matrix from_moments;  ///< (mode, l)
-  CellTable r;          ///< out, overwritten
-  KOKKOS_FUNCTION void operator()(int k) const {
-    for (int m = 0; m < r.extent_int(1); ++m) {
-      double sum = 0;
-      for (int l = 0; l < from_moments.extent_int(1); ++l) sum += from_moments(m, l) * moments(k, l);
-      r(k, m) = sum;
-    }
-  }
-};
-
-/// g_a = psi_a (f - r) - (-1)^alpha (lambda^ of a) - w·grad psi_a, for the three vertices of a cell; the target is -w.
-struct PatchData {
-  ConstCellTable f, r_alg, r_lin, lambda, w;
-  double sign;                                               ///< -(-1)^alpha
-  Kokkos::View<const double***, Kokkos::LayoutRight> times;  ///< (i, m, k): lambda_i phi_k -> phi_m
-  CellTable density, target;                                 ///< out, overwritten
-
-  KOKKOS_FUNCTION void operator()(int k) const {
-    const int n = times.extent_int(1), wide = times.extent_int(2);
-    double source[reference::dimension(5)];
-    for (int m = 0; m < wide; ++m) source[m] = f(k, m) - (m < n ? r_alg(k, m) + r_lin(k, m) : 0);
-    for (int i = 0; i < 3; ++i)
-      for (int m = 0; m < n; ++m) {
-        const double slope = i == 0 ? -w(k, m) - w(k, n + m) : w(k, (i - 1) * n + m);
-        double sum = sign * lambda(k, i * n + m) - slope;
-        for (int j = 0; j < wide; ++j) sum += times(i, m, j) * source[j];
-        density(k, i * n + m) = sum;
-      }
-    for (int m = 0; m < 2 * n; ++m) target(k, m) = -w(k, m);
-  }
-};
 
 void add(const ConstCellTable& a, const CellTable& sum) {
   Kokkos::parallel_for(
@@ -141,7 +106,10 @@ struct GuaranteedBound::Impl {
       m.sigma_alg = table("thixis::equilibration::sigma_alg", owned, flux);
       m.sigma_lin = table("thixis::equilibration::sigma_lin", owned, flux);
     }
-    tabulate();
+    const reference::Modal modal(space.basis().degree());
+    const int functions = space.basis().size();
+    from_moments = matrix("thixis::equilibration::from_moments", functions, functions, equilibration::from_moments(space.basis(), modal));
+    times = times_hats(q);
     for (View<double*>* of_cells : {&h, &distance, &distance_disc, &size_alg, &size_lin, &contact_lin, &multiplier_rest,
                                     &cells.discretization, &cells.linearization, &cells.algebraic})
       *of_cells = View<double*>("thixis::equilibration::of_cells", owned);
@@ -149,20 +117,6 @@ struct GuaranteedBound::Impl {
     const auto h_host = Kokkos::create_mirror_view(h);
     std::copy(diameter.begin(), diameter.end(), h_host.data());
     Kokkos::deep_copy(h, h_host);
-  }
-
-  void tabulate() {
-    const auto& basis = space.basis();
-    const reference::Modal modal(basis.degree()), wider(q + 1);
-    from_moments = matrix("thixis::equilibration::from_moments", basis.size(), basis.size(), equilibration::from_moments(basis, modal));
-    const int wide = wider.size();
-    const Kokkos::View<double***, Kokkos::LayoutRight> all("thixis::equilibration::times", 3, n, wide);
-    const auto host = Kokkos::create_mirror_view(all);
-    for (int i = 0; i < 3; ++i)
-      for (int m = 0; m < n; ++m)
-        for (int k = 0; k < wide; ++k) host(i, m, k) = wider.times_barycentric(i)[m * wide + k];
-    Kokkos::deep_copy(all, host);
-    times = all;
   }
 
   /// R as a polynomial in every patch cell; false where it is zero.

@@ -1,5 +1,6 @@
 #include "tables.hpp"
 
+#include "patch_data.hpp"
 #include "thixis/reference/quadrature.hpp"
 
 namespace thixis::equilibration {
@@ -77,6 +78,18 @@ std::vector<double> modal_to_bernstein(const reference::Bernstein& B, const refe
     for (int l = 0; l < B.size; ++l)
       for (int i = 0; i < m; ++i) T[k * m + i] += inverse[k * B.size + l] * phi[l * modal.size() + i];
   return T;
+}
+
+Kokkos::View<const double***, Kokkos::LayoutRight> times_hats(int q) {
+  const reference::Modal modal(q + 1);
+  const int n = reference::dimension(q), wide = modal.size();
+  const Kokkos::View<double***, Kokkos::LayoutRight> all("thixis::equilibration::times_hats", 3, n, wide);
+  const auto host = Kokkos::create_mirror_view(all);
+  for (int i = 0; i < 3; ++i)
+    for (int m = 0; m < n; ++m)
+      for (int k = 0; k < wide; ++k) host(i, m, k) = modal.times_barycentric(i)[m * wide + k];
+  Kokkos::deep_copy(all, host);
+  return all;
 }
 
 }  // namespace thixis::equilibration
