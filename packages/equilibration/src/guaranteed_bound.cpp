@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "flux_sources.hpp"
 #include "multiplier.hpp"
-#include "patch_data.hpp"
 #include "sources.hpp"
 #include "stress.hpp"
 #include "tables.hpp"
@@ -142,7 +142,7 @@ struct GuaranteedBound::Impl {
     if (!patches) return space.native_flux(*problem.tension[alpha], iterate.u[alpha], problem.boundary[alpha], 0, m.sigma_disc);
     Kokkos::parallel_for(
         "thixis::equilibration::patch_data", Kokkos::RangePolicy<>(0, patch_cells),
-        PatchData{m.data.force, m.r_alg, m.r_lin, patch_lambda, m.w, alpha == 0 ? 1.0 : -1.0, times, patch_density, patch_target});
+        PatchSources{m.data.force, m.r_alg, m.r_lin, patch_lambda, m.w, alpha == 0 ? 1.0 : -1.0, times, patch_density, patch_target});
     (*patches)({patch_density, patch_target, m.data.traction}, m.sigma_disc);
   }
 

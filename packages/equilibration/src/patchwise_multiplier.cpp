@@ -20,7 +20,7 @@ bool inside_patch(const reference::NodeEntity& entity, int i) {
 }
 
 /// Everything that one patch needs, for all of them one after the other.
-struct Patches {
+struct Fits {
   View<LocalIndex*> node_offset;  ///< free functions inside patch a: node_offset(a) … node_offset(a+1)-1
   View<LocalIndex*> node;         ///< entry
   View<double*> hat;              ///< c_l: psi_a = sum_l c_l psi_l
@@ -41,7 +41,7 @@ KOKKOS_INLINE_FUNCTION void monomials(int degree, double x, double y, double* va
 
 struct FitPatch {
   VertexPatches patches;
-  Patches data;
+  Fits data;
   View<double* [2]> x;
   View<LocalIndex* [3]> vertices;
   View<const LocalIndex*> cells;
@@ -369,7 +369,7 @@ class PatchwiseMultiplier final : public NonNegativeMultiplier {
   VertexPatches patches_;
   View<LocalIndex*> patch_of_vertex_;
   View<double*> mean_;
-  Patches data_;
+  Fits data_;
   Matrix lattice_, from_lattice_, hat_integral_, constant_;
   Kokkos::View<const double***, Kokkos::LayoutRight> hat_modal_;
 };

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "patch_data.hpp"
+#include "flux_sources.hpp"
 #include "sources.hpp"
 #include "stress.hpp"
 #include "tables.hpp"
@@ -197,7 +197,7 @@ class Evaluation {
       lift(r, alg);
       (*stress)(iterate_.u[alpha], w);
       Kokkos::parallel_for("thixis::equilibration::patch_data", Kokkos::RangePolicy<>(0, cells),
-                           PatchData{data.force, r, none, of_lambda, w, alpha == 0 ? 1.0 : -1.0, times_hats(q_), density, target});
+                           PatchSources{data.force, r, none, of_lambda, w, alpha == 0 ? 1.0 : -1.0, times_hats(q_), density, target});
       patches({density, target, data.traction}, disc);
       stress->distance(iterate_.u[alpha], w, disc, disc_K);
       stress->size(alg, alg_K);

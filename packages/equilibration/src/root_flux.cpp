@@ -36,7 +36,7 @@ struct HatMoments {
 };
 
 /// g(K, a, ·) = Pi_q(psi_a r) - grad rho·grad psi_a, w = -grad rho.
-struct Sources {
+struct RootSources {
   ConstCellTable r;
   Metrics metric;
   Kokkos::View<const double***, Kokkos::LayoutRight> times;  ///< (a, l, k): lambda_a phi_k -> phi_l
@@ -178,7 +178,7 @@ void RootFlux::operator()(const ConstCellTable& r, const CellTable& sigma) const
   const Impl& in = *impl_;
   in.solve(r);
   Kokkos::parallel_for("thixis::equilibration::root_sources", Kokkos::RangePolicy<>(0, in.mesh->cells),
-                       Sources{r, in.metric, in.times, in.rho, in.density, in.target});
+                       RootSources{r, in.metric, in.times, in.rho, in.density, in.target});
   in.patches({in.density, in.target, {}}, sigma);
 }
 

@@ -1,6 +1,6 @@
 #include "tables.hpp"
 
-#include "patch_data.hpp"
+#include "flux_sources.hpp"
 #include "thixis/reference/quadrature.hpp"
 
 namespace thixis::equilibration {

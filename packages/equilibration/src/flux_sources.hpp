@@ -19,7 +19,7 @@ struct Represent {
 };
 
 /// g_a = psi_a (f - r) - (-1)^alpha (lambda^ of a) - w·grad psi_a, for the three vertices of a cell; the target is -w.
-struct PatchData {
+struct PatchSources {
   ConstCellTable f, r_alg, r_lin, lambda, w;
   double sign;                                               ///< -(-1)^alpha
   Kokkos::View<const double***, Kokkos::LayoutRight> times;  ///< (i, m, k): lambda_i phi_k -> phi_m
