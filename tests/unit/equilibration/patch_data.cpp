@@ -26,7 +26,7 @@ mesh::Hierarchy hierarchy(const std::string& name, int refinements, const core::
 
 std::vector<bool> held_tags(const mesh::Mesh& mesh, Held held) {
   std::vector<bool> tags(mesh.tags.size(), held != Held::none);
-  for (std::size_t tag = 1; held == Held::some && tag < tags.size(); tag += 2) tags[tag] = false;
+  for (std::size_t tag = (tags.size() + 1) / 2; held == Held::some && tag < tags.size(); ++tag) tags[tag] = false;
   return tags;
 }
 

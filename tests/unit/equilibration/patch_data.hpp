@@ -12,7 +12,7 @@ namespace thixis::equilibration {
 /// "criss-cross", "rectangle", "disk", "file", refined once or not.
 mesh::Hierarchy hierarchy(const std::string& name, int refinements, const core::Comm& comm = core::Comm());
 
-enum class Held { all, none, some };  ///< some: every second tag, the first one held
+enum class Held { all, none, some };  ///< some: the first half of the tags; left and right, so that all corners are mixed
 std::vector<bool> held_tags(const mesh::Mesh& mesh, Held held);
 
 struct PatchData {
