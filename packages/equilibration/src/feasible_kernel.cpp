@@ -1,0 +1,126 @@
+#include "feasible_kernel.hpp"
+
+#include <cmath>
+
+namespace thixis::equilibration {
+namespace {
+
+KOKKOS_INLINE_FUNCTION double smallest(int n, const double* c) {
+  double low = c[0];
+  for (int k = 1; k < n; ++k) low = c[k] < low ? c[k] : low;
+  return low;
+}
+KOKKOS_INLINE_FUNCTION double largest(int n, const double* c) {
+  double high = 0;
+  for (int k = 0; k < n; ++k) high = std::abs(c[k]) > high ? std::abs(c[k]) : high;
+  return high;
+}
+
+}  // namespace
+
+KOKKOS_FUNCTION FeasibleParts::Move FeasibleParts::move_polynomial(int K, const mesh::CellGeometry& geometry, const double* gap,
+                                                                   bool counts) const {
+  const int n = functions.size();
+  Move move;
+  if (counts) move.contact = product(K, gap);
+  if (smallest(n, gap) >= 0) return move;
+  double a[max_density];
+  if (counts) density.monomials(&lambda(K, 0), a);
+  const int cuts = largest(n, gap) <= noise ? 0 : NegativePart::levels;
+  const auto below = negative_part(geometry, gap, density, counts ? a : nullptr, cuts);
+  move.square = below.square;
+  move.contact += below.moment;
+  return move;
+}
+
+KOKKOS_FUNCTION FeasibleParts::Move FeasibleParts::move_pointwise(int K, LocalIndex place, const mesh::CellGeometry& geometry,
+                                                                  const double* gap, bool counts) const {
+  const int n = functions.size();
+  Move move;
+  const bool apart_already = smallest(n, gap) >= deviation.bound(place);
+  if (apart_already && !counts) return move;
+  double a[max_density];
+  if (counts) density.monomials(&lambda(K, 0), a);
+  const PointsOf points(deviation.quadrature, place);
+  for (int q = 0; q < points.count; ++q) {
+    const double xi = points.xi(q, 0), eta = points.xi(q, 1), barycentric[3] = {1 - xi - eta, xi, eta};
+    const double value = functions.B.value(gap, barycentric) + deviation.at_points(points.first + q, 0);
+    if (value >= 0) {
+      if (counts) move.contact += points.weight(q) * value * density.value(a, xi, eta);
+      continue;
+    }
+    double slope[3], square = 0;
+    functions.B.gradient(gap, barycentric, slope);
+    for (int d = 0; d < 2; ++d) {
+      double g = deviation.at_points(points.first + q, 1 + d);
+      for (int i = 0; i < 3; ++i) g += slope[i] * geometry.gradient[i][d];
+      square += g * g;
+    }
+    move.square += 2 * geometry.area * points.weight(q) * square;
+  }
+  return move;
+}
+
+KOKKOS_FUNCTION void FeasibleParts::operator()(int K) const {
+  const int n = functions.size();
+  // s_c -> s_N: the change of each membrane and the gap that is left, at the nodes
+  double change[2][most], node_gap[most];
+  bool closed = false;
+  for (int l = 0; l < n; ++l) {
+    const LocalIndex e = of_cells(K, l);
+    const double open = s_c[0](e) - s_c[1](e), below = open < 0 ? -open : 0, share = theta.extent(0) > 0 ? theta(e) : apart[0];
+    node_gap[l] = open < 0 ? 0 : open;
+    change[0][l] = share * below;
+    change[1][l] = -(1 - share) * below;
+    closed = closed || open < 0;
+  }
+  const mesh::CellGeometry geometry = mesh::cell_geometry(x, vertices, K);
+  double c[most];
+  const auto square = [&](int alpha, const double* v) {
+    functions.to_bernstein(v, c);
+    return energy(alpha, K, geometry, c);
+  };
+  double nodes2 = 0;
+  for (int alpha = 0; closed && alpha < count; ++alpha) nodes2 += square(alpha, change[alpha]);
+
+  // u_h -> s_c
+  double averages2 = 0, polynomial2 = nodes2;
+  if (of_cells_u.extent(0) > 0) {
+    polynomial2 = 0;
+    for (int alpha = 0; alpha < count; ++alpha) {
+      double jump[most], total[most];
+      for (int l = 0; l < n; ++l) {
+        jump[l] = s_c[alpha](of_cells(K, l)) - u[alpha](of_cells_u(K, l));
+        total[l] = change[alpha][l] += jump[l];
+      }
+      averages2 += square(alpha, jump);
+      if (closed) polynomial2 += square(alpha, total);
+    }
+    if (!closed) polynomial2 = averages2;
+  }
+
+  // s_N -> s: the lift, exactly, and what is moved apart
+  double lift2 = 0;
+  if (const LocalIndex place = lift(K); place >= 0) {
+    for (int alpha = 0; alpha < count; ++alpha) {
+      lift2 += lift.energy(place, alpha);
+      polynomial2 += lift.energy(place, alpha);
+      functions.to_bernstein(change[alpha], c);
+      for (int k = 0; k < n; ++k) polynomial2 += 2 * lift.products(place, alpha, k) * c[k];
+    }
+  }
+  const bool counts = pressed(K);
+  double gap[most];
+  functions.to_bernstein(node_gap, gap);
+  const LocalIndex place = deviation(K);
+  const Move move = place < 0 ? move_polynomial(K, geometry, gap, counts) : move_pointwise(K, place, geometry, gap, counts);
+  const double stiffness = move_tension.extent(0) > 0 ? move_tension(K) : constant_move_tension;
+  const double moved = move.square > 0 ? std::sqrt(stiffness * move.square) : 0;
+
+  whole(K) = (polynomial2 > 0 ? std::sqrt(polynomial2) : 0) + moved;
+  at_nodes(K) = std::sqrt(nodes2);
+  rest(K) = std::sqrt(lift2) + moved + std::sqrt(averages2);
+  contact(K) = move.contact;
+}
+
+}  // namespace thixis::equilibration

@@ -1,0 +1,80 @@
+#pragma once
+#include "continuous_nodes.hpp"
+#include "negative_part.hpp"
+#include "thixis/method/cell_functions.hpp"
+
+namespace thixis::equilibration {
+
+/// The lift L_alpha of what the boundary data have beyond their interpolant, as cells see it: integrals that depend on the mesh only.
+struct LiftOfCells {
+  View<const LocalIndex*> place;                                ///< of each owned cell, -1 where there is none; of length 0: nowhere
+  View<const double* [2]> energy;                               ///< (place, alpha): |||L_alpha|||²_K
+  Kokkos::View<const double***, Kokkos::LayoutRight> products;  ///< (place, alpha, k): (mu_alpha grad L_alpha, grad B_k)_K
+  KOKKOS_FUNCTION LocalIndex operator()(LocalIndex K) const { return place.extent(0) == 0 ? -1 : place(K); }
+};
+
+/// What makes the gap of s more than a polynomial in some cells: D = L_1 - L_2, over an obstacle D = L_1 + psi_I - psi.
+struct Deviation {
+  View<const LocalIndex*> place;      ///< of each owned cell, -1: D = 0 there; of length 0: everywhere
+  method::CellQuadrature quadrature;  ///< on the places
+  View<const double*> bound;          ///< of |D| in the cell
+  View<const double* [3]> at_points;  ///< D and its derivatives
+  KOKKOS_FUNCTION LocalIndex operator()(LocalIndex K) const { return place.extent(0) == 0 ? -1 : place(K); }
+};
+
+/// The parts of the bound that the feasible pair gives, cell by cell (docs/methods/estimates.md, 4).
+struct FeasibleParts {
+  int count;  ///< membranes; 1: over an obstacle
+  View<double* [2]> x;
+  View<LocalIndex* [3]> vertices;
+  method::CellFunctions functions;
+  CellEnergy energy;
+  NegativePart negative_part;
+  Matrix to_modal;  ///< of Bernstein polynomials
+  LiftOfCells lift;
+  Deviation deviation;
+
+  CellEntries of_cells;                ///< of s_c and psi_I
+  Kokkos::View<const double*> s_c[2];  ///< [1] over an obstacle: psi_I
+  View<const double*> theta;           ///< mu_2/(mu_1 + mu_2) at the nodes; of length 0: apart[0]
+  double apart[2];                     ///< how the pointwise move is split; they sum to 1
+  View<const double*> move_tension;    ///< the largest of sum_alpha mu_alpha apart_alpha² in the cell; of length 0: its constant value
+  double constant_move_tension;
+  double noise;  ///< gaps below are round-off: bounded without being cut up
+
+  CellEntries of_cells_u;  ///< of u; of length 0: u = s_c
+  Kokkos::View<const double*> u[2];
+
+  ConstCellTable lambda;
+  DensityValues density;
+  View<double*> whole, at_nodes, rest, contact;  ///< out, overwritten
+
+  KOKKOS_FUNCTION void operator()(int K) const;
+
+ private:
+  static constexpr int most = reference::max_functions;
+
+  /// The integrals over a cell of the part of the gap below zero that is taken away, and of density times what is left.
+  struct Move {
+    double square = 0, contact = 0;
+  };
+  KOKKOS_FUNCTION bool pressed(int K) const {
+    for (int k = 0; k < lambda.extent_int(1); ++k)
+      if (lambda(K, k) != 0) return true;
+    return false;
+  }
+  KOKKOS_FUNCTION Move move_polynomial(int K, const mesh::CellGeometry& geometry, const double* gap, bool counts) const;
+  KOKKOS_FUNCTION Move move_pointwise(int K, LocalIndex place, const mesh::CellGeometry& geometry, const double* gap, bool counts) const;
+  KOKKOS_FUNCTION double product(int K, const double* gap) const {
+    const int n = functions.size(), m = n < lambda.extent_int(1) ? n : lambda.extent_int(1);
+    double sum = 0;
+    for (int k = 0; k < m; ++k) {
+      double modal = 0;
+      for (int l = 0; l < n; ++l) modal += to_modal(k, l) * gap[l];
+      sum += lambda(K, k) * modal;
+    }
+    return sum;
+  }
+};
+
+}  // namespace thixis::equilibration

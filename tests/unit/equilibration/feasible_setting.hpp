@@ -1,0 +1,149 @@
+#pragma once
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+
+#include "thixis/algebra/tpetra.hpp"
+#include "thixis/dg/space.hpp"
+#include "thixis/equilibration/feasible.hpp"
+#include "thixis/fem/lagrange_space.hpp"
+#include "thixis/hho/space.hpp"
+#include "thixis/mesh/build.hpp"
+#include "thixis/mesh/geometry.hpp"
+#include "thixis/mesh/host.hpp"
+#include "thixis/reference/modal.hpp"
+#include "thixis/reference/quadrature.hpp"
+
+/// What the tests of the feasible pair share: meshes, spaces, discrete functions, and the same integrals by brute force.
+namespace thixis::equilibration {
+
+using method::Coefficients;
+using method::MethodName;
+using method::Nodes;
+using method::PolynomialSpace;
+using scene::FieldPtr;
+
+inline mesh::Hierarchy square(int refinements) {
+  mesh::MeshParams params;
+  params.refinements = refinements;
+  params.cells_per_rank = 20;
+  return mesh::build(params, core::Comm(), "");
+}
+
+struct Setting {
+  MethodName name;
+  int degree;
+  Nodes nodes = Nodes::gauss_lobatto;
+};
+
+inline std::unique_ptr<PolynomialSpace> make_space(const mesh::Mesh& mesh, const Setting& setting, const FieldPtr& level_set = nullptr) {
+  method::MethodParams params;
+  params.name = setting.name;
+  params.degree = setting.degree;
+  params.nodes = setting.nodes;
+  const method::SpaceOptions options{std::vector<bool>(mesh.tags.size(), true), level_set, params};
+  auto space = setting.name == MethodName::fem  ? fem::make_lagrange_space(mesh, options)
+               : setting.name == MethodName::dg ? dg::make_space(mesh, options)
+                                                : hho::make_space(mesh, options);
+  auto* const polynomials = dynamic_cast<PolynomialSpace*>(space.release());
+  return std::unique_ptr<PolynomialSpace>(polynomials);
+}
+
+inline method::BoundaryValues everywhere(const mesh::Mesh& mesh, const FieldPtr& dirichlet) {
+  return {std::vector<FieldPtr>(mesh.tags.size(), dirichlet), std::vector<FieldPtr>(mesh.tags.size())};
+}
+
+/// Boundary data and interpolant of one function.
+inline Coefficients interpolated(const PolynomialSpace& V, const FieldPtr& u, const FieldPtr& boundary) {
+  algebra::Vector values(V.map());
+  V.interpolate(*u, 0, values);
+  return V.complete(values, V.lift(everywhere(V.mesh(), boundary), 0));
+}
+inline Coefficients interpolated(const PolynomialSpace& V, const FieldPtr& u) { return interpolated(V, u, u); }
+
+inline FeasiblePair::Problem two_membranes(const mesh::Mesh& mesh, const FieldPtr& g1, const FieldPtr& g2, const FieldPtr& mu1,
+                                           const FieldPtr& mu2) {
+  return {2, {mu1, mu2}, {everywhere(mesh, g1), everywhere(mesh, g2)}, nullptr};
+}
+
+/// Densities of a function, of that degree: (owned cell, dim P_degree).
+inline CellTable density_of(const mesh::Mesh& mesh, const FieldPtr& f, int degree) {
+  const auto host = mesh::on_host(mesh);
+  const auto rule = reference::triangle_quadrature(12);
+  const int n = reference::dimension(degree);
+  const auto phi = reference::Modal(degree).values(rule.size(), rule.point.data());
+  const CellTable g("density", mesh.owned_cells, n);
+  for (LocalIndex K = 0; K < mesh.owned_cells; ++K) {
+    const double det = 2 * mesh::cell_area(host.coordinates, host.cell_vertices, K);
+    for (int q = 0; q < rule.size(); ++q) {
+      const double xi = rule.point[2 * q], eta = rule.point[2 * q + 1], lambda[3] = {1 - xi - eta, xi, eta};
+      double x = 0, y = 0, value = 0;
+      for (int a = 0; a < 3; ++a) {
+        x += lambda[a] * host.coordinates(host.cell_vertices(K, a), 0);
+        y += lambda[a] * host.coordinates(host.cell_vertices(K, a), 1);
+      }
+      f->evaluate({1, &x, &y}, 0, &value);
+      for (int k = 0; k < n; ++k) g(K, k) += det * rule.weight[q] * value * phi[q * n + k];
+    }
+  }
+  return g;
+}
+
+/// f(weight, cell, xi, eta) at the centroids and f of 4^levels equal parts of every owned cell; the weights sum to |K|.
+template <class F>
+void densely(const mesh::Mesh& mesh, int sides, F f) {
+  const auto host = mesh::on_host(mesh);
+  for (LocalIndex K = 0; K < mesh.owned_cells; ++K) {
+    const double weight = mesh::cell_area(host.coordinates, host.cell_vertices, K) / (sides * sides);
+    for (int i = 0; i < sides; ++i)
+      for (int j = 0; i + j < sides; ++j) {
+        f(weight, K, (i + 1.0 / 3) / sides, (j + 1.0 / 3) / sides);
+        if (i + j + 1 < sides) f(weight, K, (i + 2.0 / 3) / sides, (j + 2.0 / 3) / sides);
+      }
+  }
+}
+
+/// A discrete function and its gradient at a point of an owned cell.
+struct Sample {
+  double value = 0, gradient[2] = {0, 0};
+};
+class Sampler {
+ public:
+  explicit Sampler(const PolynomialSpace& V) : V_(V), host_(mesh::on_host(V.mesh())) {}
+  void at(LocalIndex K, double xi, double eta) {
+    K_ = K;
+    const double point[2] = {xi, eta};
+    table_ = V_.basis().tabulate(1, point);
+    geometry_ = mesh::cell_geometry(host_.coordinates, host_.cell_vertices, K);
+  }
+  Sample operator()(const std::vector<double>& c) const {
+    Sample sample;
+    for (std::size_t l = 0; l < c.size(); ++l) {
+      sample.value += c[l] * table_.value[l];
+      for (int d = 0; d < 2; ++d)
+        for (int r = 0; r < 2; ++r) sample.gradient[d] += c[l] * table_.gradient[2 * l + r] * geometry_.gradient[r + 1][d];
+    }
+    return sample;
+  }
+  std::vector<double> coefficients(const Coefficients& u, LocalIndex K) const {
+    std::vector<double> c(V_.basis().size());
+    for (std::size_t l = 0; l < c.size(); ++l) c[l] = u(V_.coefficients().element_entries(K, l));
+    return c;
+  }
+
+ private:
+  const PolynomialSpace& V_;
+  mesh::HostMesh host_;
+  LocalIndex K_ = 0;
+  reference::Tabulation table_;
+  mesh::CellGeometry geometry_{};
+};
+
+inline double sum_of(const core::Comm& comm, const View<double*>& v, double power = 1) {
+  double sum = 0;
+  for (std::size_t K = 0; K < v.extent(0); ++K) sum += std::pow(v(K), power);
+  return comm.sum(sum);
+}
+
+}  // namespace thixis::equilibration
