@@ -3,24 +3,12 @@
 #include <array>
 #include <cmath>
 
+#include "thixis/reference/flux_moments.hpp"
 #include "thixis/reference/modal.hpp"
 #include "thixis/reference/quadrature.hpp"
 
 namespace thixis::hho {
 namespace {
-
-reference::Bernstein bernstein(int degree) {
-  constexpr double factorial[] = {1, 1, 2, 6, 24};
-  reference::Bernstein B;
-  B.degree = degree;
-  for (int i = 0; i <= degree; ++i)
-    for (int j = 0; i + j <= degree; ++j) {
-      const int e[3] = {degree - i - j, i, j};
-      for (int a = 0; a < 3; ++a) B.exponent[B.size][a] = e[a];
-      B.factor[B.size++] = factorial[degree] / (factorial[e[0]] * factorial[e[1]] * factorial[e[2]]);
-    }
-  return B;
-}
 
 std::vector<double> at(const reference::Bernstein& B, double xi, double eta) {
   const double lambda[3] = {1 - xi - eta, xi, eta};
@@ -50,7 +38,7 @@ std::vector<double> product(int rows, int inner, int columns, const std::vector<
 ReferenceCell reference_cell(const reference::CellBasis& basis) {
   ReferenceCell cell;
   const int p = cell.degree = basis.degree(), n = cell.functions = basis.size(), width = cell.unknowns = n + 3 * p;
-  cell.B = bernstein(p - 1);
+  cell.B = reference::bernstein(p - 1);
   const int m = cell.B.size;
 
   // With n |F| = -2|K| grad(lambda_f), the definition
