@@ -3,12 +3,15 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "face_form.hpp"
+#include "flux.hpp"
 #include "thixis/algebra/tpetra.hpp"
 #include "thixis/core/error.hpp"
 #include "thixis/method/gradient_form.hpp"
 #include "thixis/method/polynomial_space.hpp"
+#include "thixis/reference/modal.hpp"
 
 namespace thixis::dg {
 namespace {
@@ -16,7 +19,7 @@ namespace {
 using algebra::Vector;
 using method::BoundaryValues;
 using method::Coefficients;
-using Table = Kokkos::View<LocalIndex**, Kokkos::LayoutRight>;
+using Indices = Kokkos::View<LocalIndex**, Kokkos::LayoutRight>;
 
 bool strong(const method::SpaceOptions& options) { return options.params.boundary == method::BoundaryTreatment::strong; }
 
@@ -43,7 +46,7 @@ method::Structure structure(const mesh::Mesh& mesh, const method::SpaceOptions& 
   const auto vertex_tag = method::held_vertices(mesh, fixing), face_tag = method::held_faces(mesh, fixing);
 
   method::Structure s;
-  s.element_entries = Table("thixis::dg::element_entries", cells.extent(0), n);
+  s.element_entries = Indices("thixis::dg::element_entries", cells.extent(0), n);
   const auto entries = Kokkos::create_mirror_view(s.element_entries);
   std::vector<LocalIndex> position(mesh.cells, -1);
   s.entries.reserve(cells.extent(0) * n);
@@ -71,7 +74,7 @@ method::Structure structure(const mesh::Mesh& mesh, const method::SpaceOptions& 
     if ((host.face_cells(F, 0) >= 0 && host.face_cells(F, 0) < mesh.owned_cells) ||
         (host.face_cells(F, 1) >= 0 && host.face_cells(F, 1) < mesh.owned_cells))
       faces.push_back(F);
-  s.coupled_entries = Table("thixis::dg::coupled_entries", faces.size(), 2 * n);
+  s.coupled_entries = Indices("thixis::dg::coupled_entries", faces.size(), 2 * n);
   const auto coupled = Kokkos::create_mirror_view(s.coupled_entries);
   for (std::size_t k = 0; k < faces.size(); ++k)
     for (int side = 0; side < 2; ++side)
@@ -89,6 +92,7 @@ class Space final : public method::PolynomialSpace {
  public:
   Space(const mesh::Mesh& mesh, const method::SpaceOptions& options)
       : PolynomialSpace(mesh, options, structure(mesh, options)),
+        dirichlet_(options.dirichlet),
         penalty_{params_.variant == method::Variant::sipg ? 1.0 : -1.0, params_.penalty * params_.degree * params_.degree} {
     collect_faces(faces_with_form(mesh, options));
   }
@@ -126,11 +130,23 @@ class Space final : public method::PolynomialSpace {
     });
   }
 
+  void native_flux(const scene::Field& tension, const Coefficients& u, const BoundaryValues& boundary, double t,
+                   const View<double**>& sigma) const override {
+    if (!flux_tables_) flux_tables_ = flux_tables(basis_);
+    const auto density = method::flux_density(mesh_, quadrature_, basis_.degree() - 1, tension);
+    const FaceMoments moments = face_moments(mesh_, basis_.degree());
+    over_face_blocks(tension, [&](const Traces& at, LocalIndex first, LocalIndex count, const Tensions& mu) {
+      add_face_fluxes(mesh_, faces_, at, penalty_, first, count, mu, entries_, u, moments);
+    });
+    mesh_.comm.together([&] { add_boundary_fluxes(tension, boundary, t, moments); });
+    dg::native_flux(mesh_, *flux_tables_, penalty_.theta, density, structure_.element_entries, u, moments, mesh_.owned_cells, sigma);
+  }
+
  private:
   struct Apply {
     Matrices A;
     LocalIndex first;
-    Table entries;
+    Indices entries;
     Coefficients u;
     Kokkos::View<double**, Kokkos::LayoutRight> y;  ///< out, overwritten
     KOKKOS_FUNCTION void operator()(int e) const {
@@ -148,8 +164,8 @@ class Space final : public method::PolynomialSpace {
     const std::size_t count = list.size();
     View<LocalIndex*> face("thixis::dg::faces", count);
     View<LocalIndex*[2]> cell("thixis::dg::face_cells", count), side("thixis::dg::face_sides", count);
-    entries_ = Table("thixis::dg::face_entries", count, 2 * n);
-    columns_ = Table("thixis::dg::face_columns", count, 2 * n);
+    entries_ = Indices("thixis::dg::face_entries", count, 2 * n);
+    columns_ = Indices("thixis::dg::face_columns", count, 2 * n);
     const auto face_host = Kokkos::create_mirror_view(face);
     const auto cell_host = Kokkos::create_mirror_view(cell), side_host = Kokkos::create_mirror_view(side);
     const auto entries_host = Kokkos::create_mirror_view(entries_), columns_host = Kokkos::create_mirror_view(columns_);
@@ -182,23 +198,31 @@ class Space final : public method::PolynomialSpace {
 
   LocalIndex faces_per_block() const { return std::min(method::cells_per_block(2 * basis_.size()), faces_.face.extent_int(0)); }
 
-  /// f(first, A) for blocks of faces. Collective, since the tension may be refused.
+  /// f(traces, first, count, mu) for blocks of faces. Collective, since the tension may be refused.
   template <class Action>
-  void over_faces(const scene::Field& tension, Action f) const {
-    const int n = basis_.size();
+  void over_face_blocks(const scene::Field& tension, Action f) const {
     const Traces at = traces(basis_, tension.constant() ? 2 * basis_.degree() : params_.order());
     const LocalIndex count = faces_.face.extent_int(0), most = faces_per_block();
-    const Matrices A("thixis::dg::face_matrices", most, 2 * n, 2 * n);
     const Tensions mu("thixis::dg::face_tension", most, at.points());
     if (const double* value = tension.constant()) Kokkos::deep_copy(mu, *value);
     mesh_.comm.together([&] {
       for (LocalIndex first = 0; first < count; first += most) {
         const LocalIndex length = std::min(most, count - first);
         if (!tension.constant()) evaluate_traces(tension, at, first, length, mu);
-        const Matrices block = Kokkos::subview(A, std::pair(0, length), Kokkos::ALL, Kokkos::ALL);
-        face_matrices(mesh_, faces_, at, penalty_, first, mu, block);
-        f(first, block);
+        f(at, first, length, mu);
       }
+    });
+  }
+
+  /// f(first, A) for blocks of faces. Collective, since the tension may be refused.
+  template <class Action>
+  void over_faces(const scene::Field& tension, Action f) const {
+    const int n = basis_.size();
+    const Matrices A("thixis::dg::face_matrices", faces_per_block(), 2 * n, 2 * n);
+    over_face_blocks(tension, [&](const Traces& at, LocalIndex first, LocalIndex count, const Tensions& mu) {
+      const Matrices block = Kokkos::subview(A, std::pair(0, count), Kokkos::ALL, Kokkos::ALL);
+      face_matrices(mesh_, faces_, at, penalty_, first, mu, block);
+      f(first, block);
     });
   }
 
@@ -243,23 +267,37 @@ class Space final : public method::PolynomialSpace {
     }
   }
 
+  /// Points of the rule on the faces with this tag of owned cells, and the same a little inside.
+  struct BoundaryPoints {
+    std::vector<LocalIndex> faces;
+    std::vector<double> x, y, inside_x, inside_y;  ///< (face, q)
+  };
+  BoundaryPoints boundary_points(LocalIndex tag, const Traces& at) const {
+    BoundaryPoints on;
+    for (LocalIndex F = 0; F < mesh_.faces; ++F)
+      if (host_.face_tag(F) == tag && mesh::first_cell(host_.face_cells, F) < mesh_.owned_cells) on.faces.push_back(F);
+    const std::size_t points = at.points(), count = on.faces.size() * points;
+    for (auto* coordinate : {&on.x, &on.y, &on.inside_x, &on.inside_y}) coordinate->resize(count);
+    for (std::size_t k = 0; k < on.faces.size(); ++k) {
+      const LocalIndex F = on.faces[k];
+      place(F, at, &on.x[k * points], &on.y[k * points]);
+      place_inside(mesh::first_cell(host_.face_cells, F), F, at, &on.inside_x[k * points], &on.inside_y[k * points]);
+    }
+    return on;
+  }
+
   template <class Out>
   void add_weakly(const scene::Field& tension, const scene::Field& dirichlet, LocalIndex tag, double t, const Out& out) const {
     const Traces at = traces(basis_, params_.order());
     const auto of_cell = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), structure_.element_entries);
     const auto column = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), numbering_.column_of_entry);
-    std::vector<LocalIndex> faces;
-    for (LocalIndex F = 0; F < mesh_.faces; ++F)
-      if (host_.face_tag(F) == tag && mesh::first_cell(host_.face_cells, F) < mesh_.owned_cells) faces.push_back(F);
     const std::size_t points = at.points();
-    std::vector<double> x(faces.size() * points), y(x.size()), g(x.size()), mu(x.size());
-    for (std::size_t k = 0; k < faces.size(); ++k) place(faces[k], at, &x[k * points], &y[k * points]);
-    dirichlet.evaluate({x.size(), x.data(), y.data()}, t, g.data());
-    for (std::size_t k = 0; k < faces.size(); ++k)
-      place_inside(mesh::first_cell(host_.face_cells, faces[k]), faces[k], at, &x[k * points], &y[k * points]);
-    tension.evaluate({x.size(), x.data(), y.data()}, 0, mu.data());
-    for (std::size_t k = 0; k < faces.size(); ++k) {
-      const LocalIndex F = faces[k], K = mesh::first_cell(host_.face_cells, F);
+    const BoundaryPoints on = boundary_points(tag, at);
+    std::vector<double> g(on.x.size()), mu(g.size());
+    dirichlet.evaluate({g.size(), on.x.data(), on.y.data()}, t, g.data());
+    tension.evaluate({mu.size(), on.inside_x.data(), on.inside_y.data()}, 0, mu.data());
+    for (std::size_t k = 0; k < on.faces.size(); ++k) {
+      const LocalIndex F = on.faces[k], K = mesh::first_cell(host_.face_cells, F);
       const auto cell = mesh::cell_geometry(host_.coordinates, host_.cell_vertices, K);
       const auto face = mesh::face_geometry(host_.coordinates, host_.face_vertices, F);
       const double outward = mesh::normal_sign(host_.face_cells, F, K);
@@ -278,9 +316,42 @@ class Space final : public method::PolynomialSpace {
     }
   }
 
+  /// What the boundary data give: weak Dirichlet data g take g off [u], tractions t make sigma·n = -t. Throws on this rank only.
+  void add_boundary_fluxes(const scene::Field& tension, const BoundaryValues& boundary, double t, const FaceMoments& moments) const {
+    const Traces at = traces(basis_, params_.order());
+    const auto flux = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), moments.flux);
+    const auto slip = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), moments.slip);
+    const int p = basis_.degree(), points = at.points();
+    for (std::size_t tag = 0; tag < dirichlet_.size(); ++tag) {
+      if (dirichlet_[tag] && params_.boundary == method::BoundaryTreatment::strong) continue;
+      const auto& data = dirichlet_[tag] ? boundary.dirichlet[tag] : boundary.neumann[tag];
+      if (!data) continue;
+      const BoundaryPoints on = boundary_points(static_cast<LocalIndex>(tag), at);
+      std::vector<double> value(on.x.size()), mu(on.x.size(), 1.0);
+      data->evaluate({value.size(), on.x.data(), on.y.data()}, t, value.data());
+      if (dirichlet_[tag]) tension.evaluate({mu.size(), on.inside_x.data(), on.inside_y.data()}, 0, mu.data());
+      for (std::size_t k = 0; k < on.faces.size(); ++k) {
+        const LocalIndex F = on.faces[k];
+        const int side = host_.face_cells(F, 0) >= 0 ? 0 : 1;
+        const double outward = side == 0 ? 1 : -1;
+        const double length = mesh::face_geometry(host_.coordinates, host_.face_vertices, F).length;
+        for (int q = 0; q < points; ++q) {
+          const auto L = reference::legendre(p + 1, at.t(q));
+          const double weighted = outward * at.weight(q) * mu[k * points + q] * value[k * points + q];
+          for (int j = 0; j <= p; ++j) flux(F, j) -= (dirichlet_[tag] ? penalty_.eta / length : 1) * weighted * L[j];
+          for (int j = 0; j < p && dirichlet_[tag]; ++j) slip(F, side, j) -= weighted * L[j];
+        }
+      }
+    }
+    Kokkos::deep_copy(moments.flux, flux);
+    Kokkos::deep_copy(moments.slip, slip);
+  }
+
+  std::vector<bool> dirichlet_;  ///< by tag
   Penalty penalty_;
   Faces faces_;
-  Table entries_, columns_;  ///< (face with a form, 2n)
+  Indices entries_, columns_;                      ///< (face with a form, 2n)
+  mutable std::optional<FluxTables> flux_tables_;  ///< made when a flux is first asked for
 };
 
 }  // namespace

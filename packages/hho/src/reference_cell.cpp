@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "thixis/reference/flux_moments.hpp"
 #include "thixis/reference/modal.hpp"
 #include "thixis/reference/quadrature.hpp"
 

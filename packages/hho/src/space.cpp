@@ -1,6 +1,9 @@
 #include "thixis/hho/space.hpp"
 
+#include <optional>
+
 #include "cell_form.hpp"
+#include "flux.hpp"
 #include "layout.hpp"
 #include "reference_cell.hpp"
 #include "thixis/algebra/tpetra.hpp"
@@ -31,6 +34,7 @@ class HybridSpace final : public method::PolynomialSpace {
         faces_[(entry - structure_.cell_entries) / degree()] = {host_.cell_faces(cells(k), f), entry,
                                                                 column(entry) < rows ? column(entry) : -1};
       }
+    collect_flux_faces(entries, cells);
   }
 
   std::shared_ptr<const method::CellForm> cell_form(const scene::Field& tension) const override {
@@ -106,6 +110,31 @@ class HybridSpace final : public method::PolynomialSpace {
     restrict_to_unknowns(u, values);
   }
 
+  void share(const Vector& R, const View<double**>& moments) const override {
+    const Coefficients nothing("thixis::hho::nothing", structure_.entries.size());
+    hho::share(mesh_, reference_, params_, cells_, structure_.element_entries, complete(R, nothing), moments);
+  }
+
+  int flux_degree() const override { return degree() - 1; }
+
+  void native_flux(const scene::Field& tension, const Coefficients& u, const BoundaryValues& boundary, double t,
+                   const View<double**>& sigma) const override {
+    if (!flux_tables_) flux_tables_ = flux_tables(reference_);
+    const auto density = method::flux_density(mesh_, quadrature_, degree() - 1, tension);
+    const Moments traction("thixis::hho::traction", faces_.size(), degree());
+    const auto host = Kokkos::create_mirror_view(traction);
+    mesh_.comm.together([&] {
+      for (std::size_t tag = 0; tag < boundary.neumann.size(); ++tag)
+        if (boundary.neumann[tag])
+          project(
+              *boundary.neumann[tag], t, [&](const Face& F) { return host_.face_tag(F.face) == static_cast<LocalIndex>(tag); },
+              [&](const Face& F, int j, double coefficient) { host(&F - faces_.data(), j) = coefficient; });
+    });
+    Kokkos::deep_copy(traction, host);
+    hho::native_flux(mesh_, reference_, *flux_tables_, params_, density, {face_row_, neighbour_, traction}, structure_.element_entries, u,
+                     mesh_.owned_cells, sigma);
+  }
+
  private:
   struct Face {
     LocalIndex face = -1;   ///< of the mesh
@@ -113,17 +142,36 @@ class HybridSpace final : public method::PolynomialSpace {
     LocalIndex row = -1;    ///< the first of p; -1 where it is held or of another rank
   };
 
+  template <class Entries, class Cells>
+  void collect_flux_faces(const Entries& entries, const Cells& cells) {
+    View<LocalIndex*[3]> row("thixis::hho::face_rows", cells.extent(0)), neighbour("thixis::hho::neighbours", cells.extent(0));
+    const auto row_host = Kokkos::create_mirror_view(row), neighbour_host = Kokkos::create_mirror_view(neighbour);
+    for (int k = 0; k < cells.extent_int(0); ++k)
+      for (int f = 0; f < 3; ++f) {
+        const LocalIndex F = host_.cell_faces(cells(k), f), entry = entries(k, basis_.size() + f * degree());
+        const LocalIndex other = mesh::neighbour(host_.face_cells, F, cells(k));
+        row_host(k, f) = host_.face_tag(F) < 0         ? face_inside
+                         : numbering_.held[entry] >= 0 ? face_held
+                                                       : (entry - structure_.cell_entries) / degree();
+        neighbour_host(k, f) = other < 0 ? -1 : position(other);
+      }
+    Kokkos::deep_copy(row, row_host);
+    Kokkos::deep_copy(neighbour, neighbour_host);
+    face_row_ = row;
+    neighbour_ = neighbour;
+  }
+
   int degree() const { return basis_.degree(); }
 
   /// set(F, j, integral of g L_j over [0,1] along F) for the faces that are wanted. Throws on this rank only.
   template <class Wanted, class Set>
   void project(const scene::Field& g, double t, Wanted wanted, Set set) const {
     const auto rule = reference::line_quadrature(params_.order());
-    std::vector<Face> faces;
+    std::vector<const Face*> faces;
     std::vector<double> x, y;
     for (const Face& F : faces_) {
       if (!wanted(F)) continue;
-      faces.push_back(F);
+      faces.push_back(&F);
       const LocalIndex a = host_.face_vertices(F.face, 0), b = host_.face_vertices(F.face, 1);
       for (const double s : rule.point) {
         x.push_back((1 - s) * host_.coordinates(a, 0) + s * host_.coordinates(b, 0));
@@ -140,12 +188,14 @@ class HybridSpace final : public method::PolynomialSpace {
       for (int j = 0; j < degree(); ++j) {
         double integral = 0;
         for (int q = 0; q < rule.size(); ++q) integral += weighted[q * degree() + j] * values[k * rule.size() + q];
-        set(faces[k], j, integral);
+        set(*faces[k], j, integral);
       }
   }
 
   ReferenceCell reference_;
-  std::vector<Face> faces_;  ///< of the patch cells
+  std::vector<Face> faces_;                          ///< of the patch cells
+  View<const LocalIndex*[3]> face_row_, neighbour_;  ///< FaceData of the patch cells; rows are positions in faces_
+  mutable std::optional<FluxTables> flux_tables_;    ///< made when a flux is first asked for
 };
 
 }  // namespace
