@@ -1,6 +1,7 @@
 #include "multiplier.hpp"
 #include "tables.hpp"
 #include "thixis/algebra/tpetra.hpp"
+#include "thixis/reference/flux_moments.hpp"
 
 namespace thixis::equilibration {
 namespace {
@@ -41,7 +42,7 @@ class CellwiseMultiplier final : public NonNegativeMultiplier {
     const reference::Modal modal(basis.degree());
     const auto B = reference::bernstein(space.flux_degree());
     from_moments_ = matrix("thixis::equilibration::from_moments", basis.size(), basis.size(), from_moments(basis, modal));
-    to_bernstein_ = matrix("thixis::equilibration::to_bernstein", B.size, B.size, modal_to_bernstein(B, modal, B.size));
+    to_bernstein_ = matrix("thixis::equilibration::to_bernstein", B.size, B.size, reference::modal_to_bernstein(B));
   }
 
   void operator()(const algebra::Vector& moments, const CellTable& density, const CellTable&) const override {

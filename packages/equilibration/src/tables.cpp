@@ -67,19 +67,6 @@ std::vector<double> bernstein_to_modal(const reference::Bernstein& B, const refe
   return T;
 }
 
-std::vector<double> modal_to_bernstein(const reference::Bernstein& B, const reference::Modal& modal, int m) {
-  const auto points = bernstein_lattice(B);
-  std::vector<double> at;
-  for (int k = 0; k < B.size; ++k) at.insert(at.end(), {points[3 * k + 1], points[3 * k + 2]});
-  const auto phi = modal.values(B.size, at.data());
-  const auto inverse = from_lattice(B);
-  std::vector<double> T(B.size * m, 0.0);
-  for (int k = 0; k < B.size; ++k)
-    for (int l = 0; l < B.size; ++l)
-      for (int i = 0; i < m; ++i) T[k * m + i] += inverse[k * B.size + l] * phi[l * modal.size() + i];
-  return T;
-}
-
 Kokkos::View<const double***, Kokkos::LayoutRight> times_hats(int q) {
   const reference::Modal modal(q + 1);
   const int n = reference::dimension(q), wide = modal.size();

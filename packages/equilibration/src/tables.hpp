@@ -21,7 +21,5 @@ std::vector<double> bernstein_lattice(const reference::Bernstein& B);
 std::vector<double> from_lattice(const reference::Bernstein& B);
 /// (m × n): Bernstein coefficients -> the first m modal ones.
 std::vector<double> bernstein_to_modal(const reference::Bernstein& B, const reference::Modal& modal, int m);
-/// (n × m): the first m modal coefficients, of degree at most that of B -> Bernstein coefficients.
-std::vector<double> modal_to_bernstein(const reference::Bernstein& B, const reference::Modal& modal, int m);
 
 }  // namespace thixis::equilibration

@@ -48,19 +48,6 @@ std::vector<double> from_moments(const RaviartThomas& fields) {
   return T;
 }
 
-Bernstein bernstein(int degree) {
-  constexpr double factorial[] = {1, 1, 2, 6, 24};
-  Bernstein B;
-  B.degree = degree;
-  for (int i = 0; i <= degree; ++i)
-    for (int j = 0; i + j <= degree; ++j) {
-      const int e[3] = {degree - i - j, i, j};
-      for (int a = 0; a < 3; ++a) B.exponent[B.size][a] = e[a];
-      B.factor[B.size++] = factorial[degree] / (factorial[e[0]] * factorial[e[1]] * factorial[e[2]]);
-    }
-  return B;
-}
-
 std::vector<double> modal_to_bernstein(const Bernstein& basis) {
   const int m = basis.size;
   const auto rule = triangle_quadrature(2 * basis.degree);

@@ -14,9 +14,6 @@ namespace thixis::reference {
 /// to the modal coefficients of the one field v̂ of RT_q that has them.
 std::vector<double> from_moments(const RaviartThomas& fields);
 
-/// The Bernstein basis of P_degree, 0 <= degree <= 4.
-Bernstein bernstein(int degree);
-
 /// (size × size) phi_l = sum_k C_kl B_k: the modal polynomials in the Bernstein basis; so C takes modal coefficients to Bernstein
 /// coefficients, and its transpose moments against B_k to moments against phi_l.
 std::vector<double> modal_to_bernstein(const Bernstein& basis);
