@@ -22,7 +22,7 @@ namespace {
 enum class Steps { full, damped };
 
 /// Why a sequence of steps of one kind ended.
-enum class Ending { converged, cycle, growing, fallen, not_finite, too_many, failed };
+enum class Ending { converged, estimated, cycle, growing, fallen, not_finite, too_many, failed };
 
 Teuchos::RCP<Teuchos::ParameterList> nox_parameters(Steps steps) {
   const auto list = Teuchos::rcp(new Teuchos::ParameterList);
@@ -48,18 +48,20 @@ struct Tests {
   Teuchos::RCP<NOX::StatusTest::FiniteValue> finite = Teuchos::rcp(new NOX::StatusTest::FiniteValue);
   Teuchos::RCP<SmallResidual> small;
   Teuchos::RCP<SettledContactSet> settled;  ///< null where it does not apply, as the ones below
+  Teuchos::RCP<SmallEstimate> estimated;
   Teuchos::RCP<Cycle> cycle;
   Teuchos::RCP<Growing> growing;
   Teuchos::RCP<Fallen> fallen;
   Teuchos::RCP<NOX::StatusTest::MaxIters> most;
   Teuchos::RCP<NOX::StatusTest::Combo> all = Teuchos::rcp(new NOX::StatusTest::Combo(NOX::StatusTest::Combo::OR));
 
-  Tests(const System& system, Steps steps, const NewtonParams& params, double fall, int most_steps) {
+  Tests(System& system, Steps steps, const NewtonParams& params, double fall, int most_steps) {
     const bool full_min = steps == Steps::full && params.c_function == CFunction::min;
     const bool damped_to_the_end = params.c_function != CFunction::min && params.globalization == Globalization::line_search;
     all->addStatusTest(finite);
     add(small, new SmallResidual(system, full_min));
     if (full_min) add(settled, new SettledContactSet(system));
+    if (system.stopping().rule == StoppingRule::adaptive) add(estimated, new SmallEstimate(system));
     if (full_min) add(cycle, new Cycle(system));
     if (steps == Steps::full && params.globalization == Globalization::hybrid) add(growing, new Growing);
     if (steps == Steps::damped && !damped_to_the_end) add(fallen, new Fallen(fall));
@@ -68,6 +70,7 @@ struct Tests {
 
   Ending ending() const {
     if (small->answered() || (!settled.is_null() && settled->answered())) return Ending::converged;
+    if (!estimated.is_null() && estimated->answered()) return Ending::estimated;
     if (finite->getStatus() == NOX::StatusTest::Failed) return Ending::not_finite;
     if (!cycle.is_null() && cycle->answered()) return Ending::cycle;
     if (!growing.is_null() && growing->answered()) return Ending::growing;
@@ -87,8 +90,8 @@ struct Tests {
 class Run {
  public:
   Run(Problem& problem, algebra::Vector& X, const NewtonParams& params, const StoppingParams& stopping, int check_every,
-      const NewtonObserver& observer)
-      : params_(params), observer_(observer), system_(problem, params, stopping, check_every, observer), X_(X) {}
+      const NewtonObserver& observer, const Estimator& estimator)
+      : params_(params), observer_(observer), system_(problem, params, stopping, check_every, observer, estimator), X_(X) {}
 
   NewtonReport solve() {
     Steps steps = params_.globalization == Globalization::line_search ? Steps::damped : Steps::full;
@@ -114,6 +117,7 @@ class Run {
       ending = tests.ending();
     } catch (const StepFailed& failure) {
       why_ = failure.why;
+      report_.estimate.reset();  // the estimator has seen iterates that are given up
     }
     period_ = tests.cycle.is_null() ? 0 : tests.cycle->period();
     goes_on_ = report_.steps < params_.max_iterations &&
@@ -127,7 +131,6 @@ class Run {
     const auto start = std::chrono::steady_clock::now();
     system_.begin_step(report_.steps + 1);
     const NOX::StatusTest::StatusType status = solver.step();
-    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
 
     const State& now = dynamic_cast<const NoxGroup&>(solver.getSolutionGroup()).state();
     if (solver.getNumIterations() == k) {
@@ -139,10 +142,14 @@ class Run {
     report_.residuals.push_back(now.residual);
     ++report_.steps;
     changed_ = now.active.changed(before.active);
+    const algebra::Vector& X = dynamic_cast<const NoxGroup&>(solver.getSolutionGroup()).X();
+    report_.estimate.reset();
+    if (std::isfinite(now.residual)) report_.estimate = system_.estimate(X);
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
     if (observer_.step)
       observer_.step({report_.steps, system_.linear_iterations() - iterations, now.active.count(), changed_, now.residual, now.equations,
-                      now.complementarity, solver.getStepSize(), elapsed.count()});
-    if (observer_.iterate) observer_.iterate(dynamic_cast<const NoxGroup&>(solver.getSolutionGroup()).X());
+                      now.complementarity, solver.getStepSize(), elapsed.count(), report_.estimate});
+    if (observer_.iterate) observer_.iterate(X);
     return status;
   }
 
@@ -175,7 +182,7 @@ class Run {
   }
 
   NewtonReport conclude(Ending ending) {
-    report_.converged = ending == Ending::converged;
+    report_.converged = ending == Ending::converged || ending == Ending::estimated;
     if (report_.residuals.empty()) report_.residuals.push_back(last_.residual);
     report_.why = sentence(ending);
     report_.linear_iterations = system_.linear_iterations();
@@ -183,7 +190,7 @@ class Run {
     report_.residual_complementarity = last_.complementarity;
     report_.active = last_.active.count();
     const bool still_changing = changed_ > 0 && last_.residual > 2 * system_.left();
-    report_.settled = !(report_.converged && params_.c_function == CFunction::min && still_changing);
+    report_.settled = !(ending == Ending::converged && params_.c_function == CFunction::min && still_changing);
     report_.active_set = last_.active;
     return report_;
   }
@@ -195,6 +202,11 @@ class Run {
         if (last_.residual <= bound) return fmt::format("The residual {:.2e} is below {:.2e}.", last_.residual, bound);
         return fmt::format("The contact set did not change in step {}: its linear system is solved, and with it the problem.",
                            report_.steps);
+      case Ending::estimated:
+        return fmt::format(
+            "Step {}: the linearization error {:.2e} and the algebraic error {:.2e} do not count beside the discretization "
+            "error {:.2e}.",
+            report_.steps, report_.estimate->linearization, report_.estimate->algebraic, report_.estimate->discretization);
       case Ending::not_finite:
         if (report_.steps == 0) return "The residual at the start is not a finite number.";
         return fmt::format("Step {} gives a residual that is not a finite number; the iterate before it is kept.", report_.steps);
@@ -222,15 +234,15 @@ class Run {
 }  // namespace
 
 NewtonReport newton(Problem& problem, algebra::Vector& X, const NewtonParams& params, const StoppingParams& stopping, int check_every,
-                    const NewtonObserver& observer) {
-  if (stopping.rule == StoppingRule::adaptive)
+                    const NewtonObserver& observer, const Estimator& estimator) {
+  if (stopping.rule == StoppingRule::adaptive && !estimator)
     throw core::InputError("stopping/rule = adaptive needs an error estimate inside the solver; write exact or inexact here.");
   if (params.max_iterations == 0) {
     NewtonReport report;
     report.why = "Not solved: newton/max iterations is 0.";
     return report;
   }
-  return Run(problem, X, params, stopping, check_every, observer).solve();
+  return Run(problem, X, params, stopping, check_every, observer, estimator).solve();
 }
 
 }  // namespace thixis::complementarity

@@ -28,6 +28,7 @@ void NoxGroup::setX(const NOX::Abstract::Vector& y) {
 void NoxGroup::computeX(const NOX::Abstract::Group& group, const NOX::Abstract::Vector& d, double step) {
   forget();
   X_.update(1, dynamic_cast<const NoxGroup&>(group).X_, step, d, 0);
+  if (step != 1) system_.forget_estimate();
 }
 
 NOX::Abstract::Group::ReturnType NoxGroup::computeF() {

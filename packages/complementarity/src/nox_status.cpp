@@ -4,12 +4,16 @@
 
 #include <cmath>
 
+#include "adaptive_rule.hpp"
+
 namespace thixis::complementarity {
 
 NOX::StatusTest::StatusType Question::checkStatus(const NOX::Solver::Generic& solver, NOX::StatusTest::CheckType type) {
   if (type == NOX::StatusTest::None) return status_ = NOX::StatusTest::Unevaluated;
   const int k = solver.getNumIterations();
-  const State& now = dynamic_cast<const NoxGroup&>(solver.getSolutionGroup()).state();
+  const auto& group = dynamic_cast<const NoxGroup&>(solver.getSolutionGroup());
+  const State& now = group.state();
+  X_ = &group.X();
   const State& before = k == 0 ? now : dynamic_cast<const NoxGroup&>(solver.getPreviousSolutionGroup()).state();
   return status_ = ask(now, before, k) ? yes_ : NOX::StatusTest::Unconverged;
 }
@@ -26,6 +30,14 @@ bool SmallResidual::ask(const State& now, const State& before, int k) {
 
 bool SettledContactSet::ask(const State& now, const State& before, int k) {
   return k > 0 && system_.solved() && now.residual <= 2 * system_.left() && now.active.changed(before.active) == 0;
+}
+
+bool SmallEstimate::ask(const State& now, const State& before, int k) {
+  if (k == 0) return false;
+  const std::optional<Estimate>& eta = system_.estimate(X());
+  const bool held_before = held_;
+  held_ = linearization_error_is_small(*eta, system_.stopping()) && algebraic_error_is_small(*eta, system_.stopping());
+  return held_ && (held_before || now.active.changed(before.active) == 0);
 }
 
 bool Cycle::ask(const State& now, const State& before, int k) {

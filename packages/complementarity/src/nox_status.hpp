@@ -20,10 +20,13 @@ class Question : public NOX::StatusTest::Generic {
  protected:
   /// k counts the steps of this NOX solver; at k = 0 `before` is not to be read.
   virtual bool ask(const State& now, const State& before, int k) = 0;
+  /// The present iterate.
+  const algebra::Vector& X() const { return *X_; }
 
  private:
   NOX::StatusTest::StatusType yes_;
   NOX::StatusTest::StatusType status_ = NOX::StatusTest::Unevaluated;
+  const algebra::Vector* X_ = nullptr;
 };
 
 /// |R| <= bound. Full steps of Newton-min (`patient`): also that the last step changed no contact point, or left no more residual than the
@@ -48,6 +51,18 @@ class SettledContactSet : public Question {
  private:
   bool ask(const State& now, const State& before, int k) override;
   const System& system_;
+};
+
+/// Rule `adaptive`: the parts of the estimate say that neither the linear solver nor Newton has anything to do that would show. They must
+/// have said so at the iterate before, too, or the last step changed no contact point: eta_lin is not monotone.
+class SmallEstimate : public Question {
+ public:
+  explicit SmallEstimate(System& system) : Question(NOX::StatusTest::Converged), system_(system) {}
+
+ private:
+  bool ask(const State& now, const State& before, int k) override;
+  System& system_;
+  bool held_ = false;  ///< at the iterate before
 };
 
 /// Newton-min, full steps: a contact set that was left comes back with the residual it had, see newton.hpp.

@@ -62,10 +62,16 @@ const core::Schema<StoppingParams>& StoppingParams::schema() {
                      "Algebraic error, relative to the larger one of discretization and linearization error.")
           .parameter("gamma linearization", &Params::gamma_linearization, core::strictly_between(0, 1),
                      "Linearization error, relative to the discretization error.")
+          .parameter("local", &Params::local,
+                     "Whether the rule adaptive wants its two conditions in every cell, and not only in the sum over them.")
           .parameter("inexact factor", &Params::inexact_factor, core::strictly_between(0, 1),
                      "Relative linear residual, as a part of the relative nonlinear residual (rule inexact).")
-          .parameter("estimate", &Params::estimate, "Estimate the error; by default where rule, target or adaptivity need it.")
-          .parameter("target", &Params::target, core::above(0), "Bound on the energy error at which refinement stops.");
+          .parameter(
+              "estimate", &Params::estimate,
+              "Estimate the error after every Newton step and at every look into the linear solver; if not given, only where rule, target "
+              "or adaptivity need it.")
+          .parameter("target", &Params::target, core::above(0),
+                     "The mesh is refined until the energy error is guaranteed to be at most this.");
   return s;
 }
 

@@ -5,14 +5,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "adaptive_rule.hpp"
+#include "thixis/core/timer.hpp"
+
 namespace thixis::complementarity {
 
 System::System(Problem& problem, const NewtonParams& newton, const StoppingParams& stopping, int check_every,
-               const NewtonObserver& observer)
+               const NewtonObserver& observer, const Estimator& estimator)
     : problem_(problem),
       newton_(newton),
       stopping_(stopping),
       observer_(observer),
+      estimator_(estimator),
       check_every_(check_every),
       function_(newton.c_function),
       K_(problem.points()),
@@ -58,11 +62,37 @@ double System::linear_tolerance(double rhs, double residual) const {
 }
 
 bool System::look(const algebra::Vector& X, const algebra::Vector& dX, int iteration, double residual, double rhs) {
-  if (observer_.linear) observer_.linear({step_, iteration, residual});
-  if (stopping_.rule != StoppingRule::inexact || iteration == 0) return false;
-  algebra::Vector Xi(X, Teuchos::Copy), Ri(X.getMap());
-  Xi.update(1, dX, 1);
-  return residual / rhs <= stopping_.inexact_factor * this->residual(Xi, Ri).residual / reference_;
+  LinearRecord record{step_, iteration, residual, std::nullopt};
+  bool enough = false;
+  if (iteration > 0 && asks_criterion()) {
+    algebra::Vector Xi(X, Teuchos::Copy);
+    Xi.update(1, dX, 1);
+    forget_estimate();
+    record.estimate = estimate(Xi);
+    if (stopping_.rule == StoppingRule::adaptive) enough = algebraic_error_is_small(*record.estimate, stopping_);
+    if (stopping_.rule == StoppingRule::inexact) {
+      algebra::Vector Ri(X.getMap());
+      enough = residual / rhs <= stopping_.inexact_factor * this->residual(Xi, Ri).residual / reference_;
+    }
+  }
+  if (observer_.linear) observer_.linear(record);
+  looked_at_ = iteration;
+  return enough;
+}
+
+bool System::asks_estimator() const {
+  return estimator_ && (stopping_.rule == StoppingRule::adaptive || stopping_.estimate.value_or(false));
+}
+
+/// Whether the iterates of the linear solver are of interest.
+bool System::asks_criterion() const { return stopping_.rule != StoppingRule::exact || asks_estimator(); }
+
+const std::optional<Estimate>& System::estimate(const algebra::Vector& X) {
+  if (asks_estimator() && !estimate_) {
+    const core::Region region("estimate");
+    estimate_ = estimator_(X);
+  }
+  return estimate_;
 }
 
 void System::solve(const algebra::Vector& X, const algebra::Vector& R, algebra::Vector& dX) {
@@ -71,7 +101,9 @@ void System::solve(const algebra::Vector& X, const algebra::Vector& R, algebra::
   if (!(rhs > 0)) rhs = residual;
   algebra::LinearStop stop;
   stop.tolerance = linear_tolerance(rhs, residual);
-  if (check_every_ > 0 && (stopping_.rule == StoppingRule::inexact || observer_.linear)) {
+  forget_estimate();
+  looked_at_ = 0;
+  if (check_every_ > 0 && (asks_criterion() || observer_.linear)) {
     stop.check_every = check_every_;
     stop.criterion = [&](const algebra::Vector& dXi, int iteration, double left) { return look(X, dXi, iteration, left, rhs); };
   }
@@ -79,12 +111,14 @@ void System::solve(const algebra::Vector& X, const algebra::Vector& R, algebra::
   linear_iterations_ += report.iterations;
   solved_ = report.converged && !report.by_criterion;
   left_ = std::max(stop.tolerance, report.residual);
+  if (looked_at_ != report.iterations) forget_estimate();
   judge(report, stop.tolerance, residual, dX.norm2());
   if (const int sweeps = newton_.sweeps.value_or(0); sweeps > 0 && function_ == CFunction::min) {
     algebra::Vector relaxed(X, Teuchos::Copy);
     relaxed.update(1, dX, 1);
     problem_.relax(relaxed, sweeps);
     dX.update(1, relaxed, -1, X, 0);
+    forget_estimate();
   }
 }
 

@@ -23,7 +23,8 @@ struct StepFailed {
 /// asks for. The C-function may be changed between steps.
 class System {
  public:
-  System(Problem& problem, const NewtonParams& newton, const StoppingParams& stopping, int check_every, const NewtonObserver& observer);
+  System(Problem& problem, const NewtonParams& newton, const StoppingParams& stopping, int check_every, const NewtonObserver& observer,
+         const Estimator& estimator);
 
   void use(CFunction function) { function_ = function; }
   CFunction function() const { return function_; }
@@ -38,6 +39,12 @@ class System {
   /// ranks.
   void solve(const algebra::Vector& X, const algebra::Vector& R, algebra::Vector& dX);
 
+  /// The estimate at an iterate that is to be judged, if there is anybody who wants it; kept until the iterate moves.
+  const std::optional<Estimate>& estimate(const algebra::Vector& X);
+  /// The iterate is no longer the one that the linear solver left.
+  void forget_estimate() { estimate_.reset(); }
+  const StoppingParams& stopping() const { return stopping_; }
+
   double nonlinear_bound() const { return stopping_.nonlinear_tolerance * reference_ + stopping_.absolute_tolerance; }
   int linear_iterations() const { return linear_iterations_; }  ///< of all systems
   bool solved() const { return solved_; }                       ///< the last system, to its tolerance
@@ -48,6 +55,8 @@ class System {
 
  private:
   double linear_tolerance(double rhs, double residual) const;
+  bool asks_estimator() const;
+  bool asks_criterion() const;
   bool look(const algebra::Vector& X, const algebra::Vector& dX, int iteration, double residual, double rhs);
   void judge(const algebra::LinearReport& report, double tolerance, double residual, double correction);
 
@@ -55,6 +64,7 @@ class System {
   const NewtonParams& newton_;
   const StoppingParams& stopping_;
   const NewtonObserver& observer_;
+  const Estimator& estimator_;
   int check_every_;
   CFunction function_;
   algebra::Vector K_, G_, s_, C_, a_, b_;
@@ -64,6 +74,8 @@ class System {
   int failures_ = 0;  ///< linear systems in a row that were not solved
   bool solved_ = false;
   double left_ = 0;
+  int looked_at_ = 0;                 ///< last iteration of the linear solver that `look` has seen
+  std::optional<Estimate> estimate_;  ///< at the present iterate
 };
 
 }  // namespace thixis::complementarity

@@ -115,6 +115,8 @@ Mesh extract(const Mesh& whole, const std::vector<LocalIndex>& kept, LocalIndex 
   part.face_id = selected(whole.face_id, faces.used);
   part.face_owner = selected(whole.face_owner, faces.used);
   part.cell_parent = selected(whole.cell_parent, kept);
+  part.cell_parent_id = selected(whole.cell_parent_id, kept);
+  part.cell_shape = selected(whole.cell_shape, kept);
   part.vertex_parents = selected(whole.vertex_parents, vertices.used);
   find_ghost_patch_cells(part);
   return part;

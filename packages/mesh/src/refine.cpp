@@ -1,5 +1,6 @@
 #include <Kokkos_Core.hpp>
 
+#include "cut.hpp"
 #include "patches.hpp"
 #include "thixis/mesh/build.hpp"
 #include "thixis/mesh/geometry.hpp"
@@ -7,22 +8,6 @@
 
 namespace thixis::mesh {
 namespace {
-
-/// How a triangle is cut, in its six points: 0..2 its vertices, 3 + i the midpoint of its face i.
-struct Cut {
-  int child[4][3];     ///< points of child c
-  int face[4][3];      ///< face i of child c: the interior face k as k, the half at vertex v of the parent's face k as 3 + 3 k + v
-  int interior[3][2];  ///< end points of the interior face k
-};
-constexpr int half(int k, int v) { return 3 + 3 * k + v; }
-
-constexpr Cut red = {{{0, 5, 4}, {5, 1, 3}, {4, 3, 2}, {3, 4, 5}},
-                     {{0, half(1, 0), half(2, 0)}, {half(0, 1), 1, half(2, 1)}, {half(0, 2), half(1, 2), 2}, {0, 1, 2}},
-                     {{4, 5}, {5, 3}, {3, 4}}};
-
-constexpr Cut bisection = {{{5, 3, 0}, {5, 1, 3}, {4, 3, 2}, {4, 0, 3}},
-                           {{0, half(2, 0), 2}, {half(0, 1), 2, half(2, 1)}, {half(0, 2), half(1, 2), 1}, {0, 1, half(1, 0)}},
-                           {{3, 0}, {3, 4}, {3, 5}}};
 
 /// Keeps the vertices of the coarse level: same local number, same id.
 struct KeepVertices {
@@ -76,7 +61,7 @@ struct CutCells {
   HostMesh in;
   Mesh& fine;
   HostMesh out;
-  Cut cut;
+  Cut cut;  ///< into four
 
   void operator()(LocalIndex K) const {
     const LocalIndex point[6] = {in.cell_vertices(K, 0),
@@ -111,6 +96,8 @@ struct CutCells {
     fine.cell_id[child] = 4 * coarse.cell_id[K] + c;
     fine.cell_owner[child] = coarse.cell_owner[K];
     fine.cell_parent[child] = K;
+    fine.cell_parent_id[child] = coarse.cell_id[K];
+    fine.cell_shape[child] = cut.shape[c];
   }
 
   LocalIndex interior_face(LocalIndex K, int k) const { return 2 * coarse.faces + 3 * K + k; }
@@ -142,12 +129,14 @@ Mesh refine(const Mesh& coarse) {
   fine.refinement = coarse.refinement;
   fine.chart = coarse.chart;
   fine.cell_parent.resize(fine.cells);
+  fine.cell_parent_id.resize(fine.cells);
+  fine.cell_shape.resize(fine.cells);
   fine.vertex_parents.resize(fine.vertices);
 
   const HostMesh in = on_host(coarse), out = allocate(fine);
   launch("keep_vertices", coarse.vertices, KeepVertices{coarse, in, fine, out});
   launch("cut_faces", coarse.faces, CutFaces{coarse, in, fine, out});
-  const Cut& cut = coarse.refinement == Refinement::red ? red : bisection;
+  const Cut& cut = coarse.refinement == Refinement::red ? red : bisections[3];
   // An interior face has both its cells among the children, so that no entry of face_cells stays unset.
   launch("cut_cells", coarse.cells, CutCells{coarse, in, fine, out, cut});
   commit(out, fine);

@@ -1,9 +1,11 @@
 #pragma once
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "thixis/complementarity/active_set.hpp"
+#include "thixis/complementarity/estimate.hpp"
 #include "thixis/complementarity/parameters.hpp"
 #include "thixis/complementarity/problem.hpp"
 
@@ -20,13 +22,15 @@ struct NewtonRecord {
   double residual_complementarity = 0;  ///< |C(X)|, C = Fischer–Burmeister in damped steps
   double step_length = 1;               ///< below 1 only in damped steps
   double seconds = 0;                   ///< wall clock of the step
+  std::optional<Estimate> estimate;     ///< where it was computed
 };
 
 /// One look into the linear solver.
 struct LinearRecord {
-  int step = 0;         ///< Newton step k that is being computed
-  int iteration = 0;    ///< i
-  double residual = 0;  ///< |B - A X^{k,i}|
+  int step = 0;                      ///< Newton step k that is being computed
+  int iteration = 0;                 ///< i
+  double residual = 0;               ///< |B - A X^{k,i}|
+  std::optional<Estimate> estimate;  ///< at X^{k,i}, where it was computed
 };
 
 /// Who wants to know; each function may be empty. Called on all ranks with equal values.
@@ -48,6 +52,7 @@ struct NewtonReport {
   long long active = 0;                                         ///< contact points at the last iterate
   ActiveSet active_set;                                         ///< at the last iterate
   int fallbacks = 0;                                            ///< changes from full to damped steps
+  std::optional<Estimate> estimate;                             ///< at the last iterate, if that is what the estimator has seen last
 };
 
 /// Semismooth Newton (NOX, line-search based): from X, solves A^{k-1} (X^k - X^{k-1}) = -R(X^{k-1}), R = (E(X) - F, C(K(X), s G(X))), and
@@ -63,7 +68,21 @@ struct NewtonReport {
 /// **The linear solver** is stopped at |R_alg| <= eps_alg |B| (Problem::rhs_norm), but never asked for less than a tenth of the absolute
 /// tolerance. Rule `inexact` stops it earlier, asked every `check_every` iterations: at |R_alg|/|B| <= alpha |R(X^{k,i})|/|(F, 0)|. If it
 /// fails once but at least halves the linear residual, the step is taken and the next system is the second try; two failures in a row or
-/// a worse one end the run. The rule `adaptive` needs an error estimate and throws InputError here.
+/// a worse one end the run.
+///
+/// **The rule `adaptive`** (docs/methods/estimates.md) stops the linear solver, asked every `check_every` iterations, and the Newton loop
+/// at
+///
+///     eta_alg <= gamma_alg max(eta_disc, eta_lin),        and, for Newton, also        eta_lin <= gamma_lin eta_disc;
+///
+/// with `local` at worst_algebraic <= gamma_alg, worst_linearization <= gamma_lin. A linear solver that cannot get there ends at its
+/// tolerance, and a run that meets one of the two conditions above has converged, too. Since eta_lin is not monotone, one iterate where it
+/// is small is no evidence: the criterion must have held at the iterate before as well, or the last step must have left the contact set as
+/// it was. That costs at most one step more than the criterion alone, a cheap one: it starts from an iterate that is good enough.
+///
+/// **The estimator** is called under `adaptive` and, with `estimate` = true, under every rule: at each look into the linear solver and at
+/// each X^k, there only if the last look saw another iterate. Nobody else calls it. Its time goes to the region "estimate". The rule
+/// `adaptive` without an estimator is an InputError.
 ///
 /// **Smoothing.** With `sweeps` > 0 Problem::relax corrects X^k after each undamped Newton-min step; |R| and the contact set are those of
 /// the corrected iterate, so that both conditions above keep their meaning.
@@ -80,6 +99,6 @@ struct NewtonReport {
 ///
 /// max iterations = 0 evaluates nothing and returns not converged. NaN in the problem's answers ends the run, not converged.
 NewtonReport newton(Problem& problem, algebra::Vector& X, const NewtonParams& newton, const StoppingParams& stopping, int check_every,
-                    const NewtonObserver& observer = {});
+                    const NewtonObserver& observer = {}, const Estimator& estimator = {});
 
 }  // namespace thixis::complementarity

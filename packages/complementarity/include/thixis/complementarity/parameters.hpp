@@ -44,6 +44,7 @@ struct StoppingParams {
       kkt_tolerance;  ///< of the verifier, relative; not given: 1e-6, or what the nonlinear tolerance allows at one point (at most 1e-3)
   double gamma_algebraic = 0.3;
   double gamma_linearization = 0.3;
+  bool local = false;            ///< rule adaptive: in every cell
   double inexact_factor = 0.3;   ///< alpha
   std::optional<bool> estimate;  ///< not given: only where rule, target or adaptivity need it
   std::optional<double> target;

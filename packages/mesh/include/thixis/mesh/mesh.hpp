@@ -1,6 +1,9 @@
 #pragma once
 #include <Kokkos_Core.hpp>
 #include <array>
+#include <cstdint>
+#include <deque>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -23,6 +26,9 @@ enum class Chart {
   identity,
   disk  ///< hexagon to disk: hexagonal norm -> radius, fraction of a side -> fraction of 60 degrees
 };
+
+/// How a child lies in its parent: an index into child_shapes() (thixis/mesh/ancestry.hpp); 0: the child is the whole parent.
+using ChildShape = std::uint8_t;
 
 /// One level of a triangle mesh as one rank sees it: its own cells, then the ghost cells.
 ///
@@ -60,6 +66,8 @@ struct Mesh {
 
   /// Relation to the next coarser level (empty on the coarsest).
   std::vector<LocalIndex> cell_parent;                    ///< coarse local cell
+  std::vector<GlobalIndex> cell_parent_id;                ///< its id
+  std::vector<ChildShape> cell_shape;                     ///< how the cell lies in it
   std::vector<std::array<LocalIndex, 2>> vertex_parents;  ///< coarse local vertices; both the same for a vertex of the coarse level
 
   Refinement refinement = Refinement::red;  ///< towards the next finer level
@@ -68,7 +76,9 @@ struct Mesh {
 
 /// Nested meshes, coarsest first.
 struct Hierarchy {
-  std::vector<Mesh> levels;
+  std::deque<Mesh> levels;           ///< references to them stay valid when levels are appended
+  std::shared_ptr<const Mesh> root;  ///< the coarsest mesh, whole on every rank, alone on its communicator, ids = local numbers
+  int partitioned = 0;               ///< the level whose cells were shared out to the ranks
   const Mesh& finest() const { return levels.back(); }
 };
 
