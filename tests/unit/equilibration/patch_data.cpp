@@ -1,6 +1,8 @@
 #include "patch_data.hpp"
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 
 namespace thixis::equilibration {
 namespace {
@@ -8,6 +10,25 @@ namespace {
 double number(GlobalIndex id, int place) {
   const double x = std::sin(12.9898 * static_cast<double>(id + 1) + 78.233 * (place + 1)) * 43758.5453;
   return 2 * (x - std::floor(x)) - 1;
+}
+
+/// A file with 70 triangles around one vertex, one for each rank.
+std::string wheel() {
+  constexpr int count = 70;
+  const std::string name = "wheel_" + std::to_string(core::Comm().size()) + "_" + std::to_string(core::Comm().rank()) + ".msh";
+  std::ofstream file(name);
+  file << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n" << count + 1 << "\n1 0.1 0 0\n";
+  for (int i = 0; i < count; ++i) {
+    const double angle = 2 * 3.14159265358979323846 * i / count;
+    file << i + 2 << ' ' << std::cos(angle) << ' ' << std::sin(angle) << " 0\n";
+  }
+  file << "$EndNodes\n$Elements\n" << 2 * count << '\n';
+  for (int i = 0; i < count; ++i) {
+    const int a = i + 2, b = (i + 1) % count + 2;
+    file << 2 * i + 1 << " 1 2 1 1 " << a << ' ' << b << '\n' << 2 * i + 2 << " 2 2 2 1 1 " << a << ' ' << b << '\n';
+  }
+  file << "$EndElements\n";
+  return name;
 }
 
 }  // namespace
@@ -21,6 +42,7 @@ mesh::Hierarchy hierarchy(const std::string& name, int refinements, const core::
   if (name == "rectangle") params.generator = mesh::Generator::rectangle, params.lower = {-1, 0.5}, params.upper = {2, 2};
   if (name == "disk") params.generator = mesh::Generator::disk;
   if (name == "file") params.generator = mesh::Generator::file, params.file = "l_shape_22.msh";
+  if (name == "wheel") params.generator = mesh::Generator::file, params.file = std::filesystem::absolute(wheel()).string();
   return mesh::build(params, comm, MESH_FILES);
 }
 

@@ -9,7 +9,7 @@
 /// Meshes, boundary parts and data for fluxes on patches. On a host that Views live on.
 namespace thixis::equilibration {
 
-/// "criss-cross", "rectangle", "disk", "file", refined once or not.
+/// "criss-cross", "rectangle", "disk", "file", refined once or not; "wheel": 70 cells around a vertex.
 mesh::Hierarchy hierarchy(const std::string& name, int refinements, const core::Comm& comm = core::Comm());
 
 enum class Held { all, none, some };  ///< some: the first half of the tags; left and right, so that all corners are mixed
