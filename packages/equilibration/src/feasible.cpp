@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "averages.hpp"
-#include "feasible_kernel.hpp"
+#include "deviation.hpp"
 #include "thixis/core/assert.hpp"
 #include "thixis/method/gradient_form.hpp"
 
@@ -148,6 +148,10 @@ struct FeasiblePair::Impl {
       held[0][e] += share * below;
       held[1][e] -= (1 - share) * below;
     }
+    lift = std::make_unique<BoundaryLift>(space, nodes, problem.tension, problem.boundary, held, problem.count);
+    kernel.lift = lift->of_cells();
+    kernel.deviation = problem.count == 2 ? deviation_of_membranes(space, *lift)
+                                          : deviation_of_obstacle(space, *lift, nodes, problem.obstacle, held[1]);
     for (int alpha = 0; alpha < 2; ++alpha) data[alpha] = to_view("thixis::equilibration::held", held[alpha]);
   }
 
@@ -157,6 +161,7 @@ struct FeasiblePair::Impl {
   Tension tension;
   FeasibleParts kernel;
   View<const double*> data[2];  ///< coefficients on the held boundary; over an obstacle [1] is psi_I
+  std::unique_ptr<BoundaryLift> lift;
   std::optional<Averages> averages;
   View<double*> averaged[2];
 };
@@ -199,6 +204,6 @@ void FeasiblePair::evaluate(const method::Coefficients (&u)[2], const ConstCellT
   Kokkos::fence();
 }
 
-double FeasiblePair::boundary_energy() const { return 0; }
+double FeasiblePair::boundary_energy() const { return impl_->lift->energy(); }
 
 }  // namespace thixis::equilibration

@@ -1,0 +1,64 @@
+#pragma once
+#include <array>
+#include <vector>
+
+#include "feasible_kernel.hpp"
+
+namespace thixis::equilibration {
+
+/// The lift L = l + v of delta = g - g_h, what Dirichlet data have beyond their interpolant (docs/methods/estimates.md, 4): on the face i with
+/// ends j, k of a boundary cell, in barycentric coordinates lambda of the cell,
+///
+///     l(x) = lambda_j lambda_k q(lambda_k + lambda_i/2),     delta(s) = s (1 - s) q(s),  s from j to k,
+///
+/// which is delta on the face and vanishes on the others; q a polynomial of degree `resolution`. v is continuous, of degree P_4 in the layer
+/// of cells that touch the held boundary, 0 on it and on the layer's rim, and makes the energy of L least.
+class BoundaryLift {
+ public:
+  static constexpr int resolution = 10;
+
+  /// `held`: coefficients of g_h on `nodes`. Collective.
+  BoundaryLift(const method::PolynomialSpace& space, const ContinuousNodes& nodes, const std::array<scene::FieldPtr, 2>& tension,
+               const std::array<method::BoundaryValues, 2>& boundary, const std::vector<double> (&held)[2], int count);
+
+  /// The data are polynomials of degree p on the faces, up to round-off: there is no lift, and nothing is allocated for it.
+  bool empty() const { return empty_; }
+  const View<const LocalIndex*>& cells() const { return owned_; }  ///< owned cells of the layer
+  const LiftOfCells& of_cells() const { return of_cells_; }
+  double energy() const { return energy_; }  ///< |||L||| over all cells of all ranks
+
+  struct Value {
+    double value = 0, gradient[2] = {0, 0};
+  };
+  /// L_alpha in the owned layer cell cells()(place).
+  Value operator()(int alpha, LocalIndex place, double xi, double eta) const;
+  /// Of |L_1 - L_2| in that cell.
+  double bound_of_difference(LocalIndex place) const;
+
+ private:
+  /// A held face of a layer cell: coefficients of q in Legendre polynomials, and the largest |delta_1 - delta_2| seen.
+  struct Blend {
+    int face;
+    std::array<double, resolution + 1> q[2];
+    double difference;
+  };
+  void find_faces(const ContinuousNodes& nodes, const std::array<method::BoundaryValues, 2>& boundary, const std::vector<double> (&held)[2]);
+  void find_layer();
+  void minimise(const std::array<scene::FieldPtr, 2>& tension);
+  void integrate(const std::array<scene::FieldPtr, 2>& tension);
+  Value blended(int alpha, LocalIndex cell, double xi, double eta) const;
+
+  const method::PolynomialSpace& space_;
+  mesh::HostMesh host_;
+  int count_;
+  bool empty_ = true;
+  std::vector<bool> dirichlet_;
+  std::vector<std::vector<Blend>> blends_;  ///< of the layer cells of this rank, ghosts too
+  View<const LocalIndex*> layer_, owned_;   ///< layer cells of this rank: the owned ones first
+  reference::CellBasis basis_;              ///< of v
+  std::vector<std::vector<double>> v_[2];   ///< its Bernstein coefficients in the owned layer cells
+  LiftOfCells of_cells_;
+  double energy_ = 0;
+};
+
+}  // namespace thixis::equilibration

@@ -1,0 +1,157 @@
+#include "deviation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace thixis::equilibration {
+namespace {
+
+/// The part of a quadrature at some positions.
+method::CellQuadrature subset(const method::CellQuadrature& all, const std::vector<LocalIndex>& positions) {
+  const LocalIndex count = static_cast<LocalIndex>(positions.size());
+  const View<LocalIndex*> cell("thixis::equilibration::subset_cell", count), own_rule("thixis::equilibration::subset_rule", count);
+  const View<GlobalIndex*> offset("thixis::equilibration::subset_offset", count + 1);
+  for (LocalIndex k = 0; k < count; ++k) {
+    cell(k) = all.cell(positions[k]);
+    own_rule(k) = all.own_rule(positions[k]);
+    offset(k + 1) = offset(k) + all.offset(positions[k] + 1) - all.offset(positions[k]);
+  }
+  method::CellQuadrature some = all;
+  some.cell = cell;
+  some.own_rule = own_rule;
+  some.offset = offset;
+  some.largest_block = 0;
+  for (LocalIndex first = 0; first < count; first += some.block_cells)
+    some.largest_block =
+        std::max(some.largest_block, static_cast<int>(offset(std::min(first + some.block_cells, count)) - offset(first)));
+  return some;
+}
+
+View<LocalIndex*> nowhere(const mesh::Mesh& mesh) {
+  const View<LocalIndex*> place("thixis::equilibration::place_of_deviation", mesh.owned_cells);
+  Kokkos::deep_copy(place, -1);
+  return place;
+}
+
+}  // namespace
+
+Deviation deviation_of_membranes(const method::PolynomialSpace& space, const BoundaryLift& lift) {
+  if (lift.empty()) return {};
+  const mesh::Mesh& mesh = space.mesh();
+  const auto& cells = lift.cells();
+  const auto place = nowhere(mesh);
+  Deviation deviation;
+  deviation.quadrature = method::make_quadrature(mesh, cells, 16, nullptr);
+  const View<double*> bound("thixis::equilibration::deviation_bound", cells.extent(0));
+  const View<double* [3]> D("thixis::equilibration::deviation", deviation.quadrature.points());
+  for (LocalIndex k = 0; k < cells.extent_int(0); ++k) {
+    place(cells(k)) = k;
+    bound(k) = lift.bound_of_difference(k);
+    const PointsOf points(deviation.quadrature, k);
+    for (int q = 0; q < points.count; ++q) {
+      const auto upper = lift(0, k, points.xi(q, 0), points.xi(q, 1)), lower = lift(1, k, points.xi(q, 0), points.xi(q, 1));
+      D(points.first + q, 0) = upper.value - lower.value;
+      for (int d = 0; d < 2; ++d) D(points.first + q, 1 + d) = upper.gradient[d] - lower.gradient[d];
+    }
+  }
+  deviation.place = place;
+  deviation.bound = bound;
+  deviation.at_points = D;
+  return deviation;
+}
+
+Deviation deviation_of_obstacle(const method::PolynomialSpace& space, const BoundaryLift& lift, const ContinuousNodes& nodes,
+                                const scene::FieldPtr& obstacle, const std::vector<double>& psi) {
+  const mesh::Mesh& mesh = space.mesh();
+  const core::Comm& comm = mesh.comm;
+  const auto host = mesh::on_host(mesh);
+  const method::CellQuadrature& all = space.quadrature();
+  const auto of_cells = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), nodes.of_cells);
+  const auto functions = method::cell_functions(space.basis());
+  const int n = space.basis().size();
+  const auto polynomial = [&](LocalIndex K, double* c) {
+    double local[reference::max_functions];
+    for (int l = 0; l < n; ++l) local[l] = psi[of_cells(K, l)];
+    functions.to_bernstein(local, c);
+  };
+  std::vector<LocalIndex> in_layer(mesh.owned_cells, -1), positions;
+  for (std::size_t k = 0; k < lift.cells().extent(0); ++k) in_layer[lift.cells()(k)] = static_cast<LocalIndex>(k);
+
+  double low[2] = {1e300, 1e300}, high[2] = {-1e300, -1e300}, size = 0;
+  for (LocalIndex v = 0; v < mesh.vertices; ++v)
+    for (int d = 0; d < 2; ++d) {
+      low[d] = std::min(low[d], host.coordinates(v, d));
+      high[d] = std::max(high[d], host.coordinates(v, d));
+    }
+  for (const double value : psi) size = std::max(size, std::abs(value));
+  size = comm.max(size);
+  const double width = std::max(comm.max(high[0]) - comm.min(low[0]), comm.max(high[1]) - comm.min(low[1]));
+
+  // where is psi more than its interpolant?
+  const auto psi_less_interpolant = [&](const method::QuadratureBlock& block, LocalIndex k, const View<double*>& value, int q) {
+    double c[reference::max_functions];
+    polynomial(block.cell(k), c);
+    const double xi = block.xi(q, 0), eta = block.xi(q, 1), lambda[3] = {1 - xi - eta, xi, eta};
+    return value(q) - functions.B.value(c, lambda);
+  };
+  comm.together([&] {
+    const View<double*> value("thixis::equilibration::obstacle", all.largest_block);
+    method::for_each_block(all, [&](const method::QuadratureBlock& block) {
+      method::evaluate(*obstacle, 0, block, value);
+      for (LocalIndex k = 0; k < block.cells && block.cell(k) < mesh.owned_cells; ++k) {
+        double most = 0;
+        for (int q = block.offset(k); q < block.offset(k + 1); ++q)
+          most = std::max(most, std::abs(psi_less_interpolant(block, k, value, q)));
+        if (most > 1e-13 * size || in_layer[block.cell(k)] >= 0) positions.push_back(block.first + k);
+      }
+    });
+  });
+  if (!comm.any(!positions.empty())) return {};
+
+  Deviation deviation;
+  deviation.quadrature = subset(all, positions);
+  const auto place = nowhere(mesh);
+  const View<double*> bound("thixis::equilibration::deviation_bound", positions.size());
+  const View<double* [3]> D("thixis::equilibration::deviation", deviation.quadrature.points());
+  const auto slope = scene::difference_gradient(obstacle, 1e-5 * width);
+  comm.together([&] {
+    const int length = deviation.quadrature.largest_block;
+    const View<double*> value("thixis::equilibration::obstacle", length), x("thixis::equilibration::obstacle_x", length),
+        y("thixis::equilibration::obstacle_y", length);
+    method::for_each_block(deviation.quadrature, [&](const method::QuadratureBlock& block) {
+      method::evaluate(*obstacle, 0, block, value);
+      method::evaluate(*slope[0], 0, block, x);
+      method::evaluate(*slope[1], 0, block, y);
+      for (LocalIndex k = 0; k < block.cells; ++k) {
+        const LocalIndex K = block.cell(k), at = block.first + k;
+        place(K) = at;
+        const auto geometry = mesh::cell_geometry(host.coordinates, host.cell_vertices, K);
+        double c[reference::max_functions];
+        polynomial(K, c);
+        for (int q = block.offset(k); q < block.offset(k + 1); ++q) {
+          const double xi = block.xi(q, 0), eta = block.xi(q, 1), lambda[3] = {1 - xi - eta, xi, eta};
+          const GlobalIndex p = deviation.quadrature.offset(block.first) + q;
+          double interpolant[3];
+          functions.B.gradient(c, lambda, interpolant);
+          D(p, 0) = functions.B.value(c, lambda) - value(q);
+          D(p, 1) = -x(q);
+          D(p, 2) = -y(q);
+          for (int a = 0; a < 3; ++a)
+            for (int d = 0; d < 2; ++d) D(p, 1 + d) += interpolant[a] * geometry.gradient[a][d];
+          if (in_layer[K] >= 0) {
+            const auto L = lift(0, in_layer[K], xi, eta);
+            D(p, 0) += L.value;
+            for (int d = 0; d < 2; ++d) D(p, 1 + d) += L.gradient[d];
+          }
+          bound(at) = std::max(bound(at), std::abs(D(p, 0)));
+        }
+      }
+    });
+  });
+  deviation.place = place;
+  deviation.bound = bound;
+  deviation.at_points = D;
+  return deviation;
+}
+
+}  // namespace thixis::equilibration
