@@ -105,8 +105,7 @@ void BoundaryLift::find_faces(const ContinuousNodes& nodes, const std::array<met
           size = std::max(size, std::abs(g[q]));
           difference[q] += alpha == 0 ? delta : -delta;
           const double s = rule.point[q], quotient = delta / (s * (1 - s));
-          for (int j = 0; j <= resolution; ++j)
-            blend.q[alpha][j] += rule.weight[q] * quotient * legendre[q * (resolution + 1) + j];
+          for (int j = 0; j <= resolution; ++j) blend.q[alpha][j] += rule.weight[q] * quotient * legendre[q * (resolution + 1) + j];
         }
       }
       for (const double d : difference) blend.difference = std::max(blend.difference, std::abs(d));

@@ -22,8 +22,7 @@ method::CellQuadrature subset(const method::CellQuadrature& all, const std::vect
   some.offset = offset;
   some.largest_block = 0;
   for (LocalIndex first = 0; first < count; first += some.block_cells)
-    some.largest_block =
-        std::max(some.largest_block, static_cast<int>(offset(std::min(first + some.block_cells, count)) - offset(first)));
+    some.largest_block = std::max(some.largest_block, static_cast<int>(offset(std::min(first + some.block_cells, count)) - offset(first)));
   return some;
 }
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "cut_oscillation.hpp"
 #include "flux_sources.hpp"
 #include "multiplier.hpp"
 #include "sources.hpp"
@@ -17,7 +18,6 @@ namespace thixis::equilibration {
 namespace {
 
 using algebra::Vector;
-constexpr double pi = 3.14159265358979323846;
 
 void add(const ConstCellTable& a, const CellTable& sum) {
   Kokkos::parallel_for(
@@ -97,7 +97,7 @@ struct GuaranteedBound::Impl {
     for (int alpha = 0; alpha < problem.count; ++alpha) {
       Membrane& m = membrane[alpha];
       m.least_tension = least_tension(space, *problem.tension[alpha]);
-      m.data = sources(space, q, *problem.force[alpha], problem.boundary[alpha], m.least_tension);
+      m.data = sources(space, q, *problem.force[alpha], problem.boundary[alpha], problem.interface, m.least_tension);
       m.stress = make_stress(space, q, *problem.tension[alpha], m.least_tension);
       m.w = table("thixis::equilibration::stress", patch_cells, 2 * n);
       m.r_alg = table("thixis::equilibration::r_alg", patch_cells, n);
@@ -218,11 +218,11 @@ complementarity::Estimate GuaranteedBound::Impl::sum_up(const Iterate& iterate) 
     m.stress->distance(iterate.u[alpha], m.w, sigma, distance);
     m.stress->size(m.sigma_alg, size_alg);
     m.stress->size(m.sigma_lin, size_lin);
-    const auto volume = on_host(m.data.oscillation), traction = on_host(m.data.traction_oscillation), all = on_host(distance),
+    const auto volume = on_host(m.data.sharp_oscillation), traction = on_host(m.data.traction_oscillation), all = on_host(distance),
                disc = on_host(distance_disc), alg = on_host(size_alg), lin = on_host(size_lin);
     for (LocalIndex K = 0; K < owned; ++K) {
-      const double of_lambda = patches ? 0 : h_K(K) / pi * rest_of_multiplier(K) / std::sqrt(m.least_tension[K]);
-      const double oscillation = std::hypot(volume(K), of_lambda) + traction(K);
+      const double of_lambda = patches ? 0 : poincare * h_K(K) * rest_of_multiplier(K) / std::sqrt(m.least_tension[K]);
+      const double oscillation = volume(K) + of_lambda + traction(K);
       sum[of_flux] += (all(K) + oscillation) * (all(K) + oscillation);
       disc_K[K] += (disc(K) + oscillation) * (disc(K) + oscillation);
       alg_K[K] += alg(K) * alg(K);
@@ -250,6 +250,7 @@ complementarity::Estimate GuaranteedBound::Impl::sum_up(const Iterate& iterate) 
   Kokkos::deep_copy(cells.linearization, of_lin_K);
   Kokkos::deep_copy(cells.algebraic, of_alg_K);
   comm.sum(sum);
+    printf("   flux %.3e whole %.3e 2B %.3e\n", std::sqrt(sum[of_flux]), std::sqrt(sum[of_whole]), std::sqrt(2 * sum[contact]));
   complementarity::Estimate eta;
   eta.total = std::sqrt(sum[of_flux] + sum[of_whole] + 2 * sum[contact]);
   eta.discretization = std::sqrt(sum[of_disc]) + std::sqrt(sum[of_rest]) + std::sqrt(2 * std::abs(sum[contact] - sum[contact_nodes]));

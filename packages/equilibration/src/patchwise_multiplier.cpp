@@ -51,7 +51,8 @@ struct FitPatch {
   Matrix from_lattice;                                           ///< (b, b)
   Matrix hat_integral;                                           ///< (i, b): ∫ lambda_i B_b
   Kokkos::View<const double***, Kokkos::LayoutRight> hat_modal;  ///< (i, m, b): ∫ lambda_i B_b phi_m
-  View<const double*> moment;                                    ///< of entries, 0 where there is none
+  View<const double*> moment;     ///< of entries, 0 where there is none
+  View<const double*> cell_mean;  ///< of the moments shared out to the patch cells
   CellTable patch;                                               ///< out, overwritten
   View<double*> mean;                                            ///< out: of L_a; -1 where no function is free
 
@@ -68,20 +69,39 @@ struct FitPatch {
       for (int b = 0; b < n; ++b)
         for (LocalIndex l = 0; l < count; ++l)
           coefficient[b] += data.fit(data.fit_offset(a) + b * count + l) * moment(data.node(first + l));
+    const double steepness = average > 0 ? concentration(a) : 0;
     double shift = 0, part = 0;
-    if (fitted) part = share(a, coefficient, average, shift);
+    if (fitted) part = share(a, coefficient, average, steepness, shift);
     for (LocalIndex e = patches.offset(a); e < patches.offset(a + 1); ++e) {
       const LocalIndex k = patches.cell(e);
       const int i = patches.corner(e);
+      const double simple = in_cell(k, average, steepness);
       double B[most_coefficients];
       if (part > 0) of_cell(a, k, coefficient, B);
-      for (int b = 0; b < n; ++b) B[b] = part > 0 ? part * (B[b] + shift) + (1 - part) * average : average;
+      for (int b = 0; b < n; ++b) B[b] = part > 0 ? part * (B[b] + shift) + (1 - part) * simple : simple;
       for (int m = 0; m < modes; ++m) {
         double sum = 0;
         for (int b = 0; b < n; ++b) sum += hat_modal(i, m, b) * B[b];
         patch(k, i * modes + m) = metric(k).det * sum;
       }
     }
+  }
+
+  /// The simple function with the moment of L_a: its mean, or, along the edge of the contact zone, in proportion to the means of the cells.
+  KOKKOS_FUNCTION double in_cell(LocalIndex k, double average, double steepness) const {
+    return steepness > 0 ? average * steepness * cell_mean(k) : average;
+  }
+  /// The factor of proportion over the mean; 0 away from the edge.
+  KOKKOS_FUNCTION double concentration(int a) const {
+    double lowest = 1e300, highest = 0, integral = 0, area = 0;
+    for (LocalIndex e = patches.offset(a); e < patches.offset(a + 1); ++e) {
+      const LocalIndex k = patches.cell(e);
+      lowest = cell_mean(k) < lowest ? cell_mean(k) : lowest;
+      highest = cell_mean(k) > highest ? cell_mean(k) : highest;
+      integral += metric(k).det / 6 * cell_mean(k);
+      area += metric(k).det / 6;
+    }
+    return lowest < 0.5 * highest ? area / integral : 0;
   }
 
   /// Bernstein coefficients of L_a in a cell.
@@ -103,24 +123,32 @@ struct FitPatch {
     }
   }
 
-  /// The shift that gives L_a its moment, and the largest part of it that leaves it non-negative.
-  KOKKOS_FUNCTION double share(int a, const double* coefficient, double average, double& shift) const {
+  /// The shift that gives L_a its moment, and the largest part of it that, with the simple function for the rest, is non-negative.
+  KOKKOS_FUNCTION double share(int a, const double* coefficient, double average, double steepness, double& shift) const {
     const int n = from_lattice.extent_int(0);
-    double moment_of_fit = 0, area = 0, lowest = 1e300;
+    double moment_of_fit = 0, area = 0;
     for (LocalIndex e = patches.offset(a); e < patches.offset(a + 1); ++e) {
       const LocalIndex k = patches.cell(e);
-      const int i = patches.corner(e);
       double B[most_coefficients];
       of_cell(a, k, coefficient, B);
-      for (int b = 0; b < n; ++b) {
-        moment_of_fit += metric(k).det * hat_integral(i, b) * B[b];
-        lowest = B[b] < lowest ? B[b] : lowest;
-      }
+      for (int b = 0; b < n; ++b) moment_of_fit += metric(k).det * hat_integral(patches.corner(e), b) * B[b];
       area += metric(k).det / 6;
     }
     shift = average - moment_of_fit / area;
-    lowest += shift;
-    return lowest >= 0 ? 1 : average / (average - lowest);
+    double part = 1;
+    for (LocalIndex e = patches.offset(a); e < patches.offset(a + 1); ++e) {
+      const LocalIndex k = patches.cell(e);
+      const double simple = in_cell(k, average, steepness);
+      double B[most_coefficients];
+      of_cell(a, k, coefficient, B);
+      for (int b = 0; b < n; ++b) {
+        const double value = B[b] + shift;
+        if (value >= 0) continue;
+        const double most = simple / (simple - value);
+        part = most < part ? most : part;
+      }
+    }
+    return part;
   }
 };
 
@@ -163,7 +191,9 @@ class PatchwiseMultiplier final : public NonNegativeMultiplier {
         metric_(metrics(space.mesh(), space.cells())),
         patches_(vertex_patches(space.mesh(), space.cells(), held)),
         patch_of_vertex_("thixis::equilibration::patch_of_vertex", space.mesh().vertices),
-        mean_("thixis::equilibration::patch_mean", patches_.size()) {
+        mean_("thixis::equilibration::patch_mean", patches_.size()),
+        cell_mean_("thixis::equilibration::cell_mean", space.cells().extent(0)),
+        shared_("thixis::equilibration::shared_moments", space.cells().extent(0), space.basis().size()) {
     Kokkos::deep_copy(patch_of_vertex_, -1);
     const auto patch_of_vertex = patch_of_vertex_;
     const auto vertex = patches_.vertex;
@@ -184,10 +214,19 @@ class PatchwiseMultiplier final : public NonNegativeMultiplier {
     }
     const auto at_entries =
         space_.complete(all, method::Coefficients("thixis::equilibration::nothing", space_.coefficients().entries.size()));
+    space_.share(all, shared_);
+    const auto shared = shared_;
+    const auto metric = metric_;
+    const auto cell_mean = cell_mean_;
+    Kokkos::parallel_for(
+        "thixis::equilibration::cell_means", Kokkos::RangePolicy<>(0, cell_mean.extent_int(0)), KOKKOS_LAMBDA(int k) {
+          cell_mean(k) = 0;
+          for (int l = 0; l < shared.extent_int(1); ++l) cell_mean(k) += 2 * shared(k, l) / metric(k).det;
+        });
     const mesh::Mesh& mesh = space_.mesh();
     Kokkos::parallel_for("thixis::equilibration::fit_multiplier", Kokkos::RangePolicy<>(0, patches_.size()),
                          FitPatch{patches_, data_, mesh.coordinates, mesh.cell_vertices, space_.cells(), metric_, B_.degree, lattice_,
-                                  from_lattice_, hat_integral_, hat_modal_, at_entries, patch, mean_});
+                                  from_lattice_, hat_integral_, hat_modal_, at_entries, cell_mean_, patch, mean_});
     Kokkos::parallel_for("thixis::equilibration::fill_empty_patches", Kokkos::RangePolicy<>(0, patches_.size()),
                          FillEmpty{patches_, patch_of_vertex_, mesh.cell_vertices, space_.cells(), metric_, constant_, mean_, patch});
     const int modes = density.extent_int(1);
@@ -368,7 +407,8 @@ class PatchwiseMultiplier final : public NonNegativeMultiplier {
   Metrics metric_;
   VertexPatches patches_;
   View<LocalIndex*> patch_of_vertex_;
-  View<double*> mean_;
+  View<double*> mean_, cell_mean_;
+  CellTable shared_;
   Fits data_;
   Matrix lattice_, from_lattice_, hat_integral_, constant_;
   Kokkos::View<const double***, Kokkos::LayoutRight> hat_modal_;

@@ -190,7 +190,7 @@ class Evaluation {
         alg_K("thixis::equilibration::alg", owned);
     std::vector<double> sum(5, 0.0);
     for (int alpha = 0; alpha < problem_.count; ++alpha) {
-      const Sources data = sources(space_, q_, *problem_.force[alpha], problem_.boundary[alpha], least_[alpha]);
+      const Sources data = sources(space_, q_, *problem_.force[alpha], problem_.boundary[alpha], nullptr, least_[alpha]);
       const auto stress = make_stress(space_, q_, *problem_.tension[alpha], least_[alpha]);
       space_.share(*iterate_.residual[alpha], moments);
       Kokkos::parallel_for("thixis::equilibration::represent", Kokkos::RangePolicy<>(0, cells), Represent{moments, from, r});

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cut_oscillation.hpp"
 #include "thixis/mesh/geometry.hpp"
 #include "thixis/mesh/host.hpp"
 #include "thixis/method/gradient_form.hpp"
@@ -127,11 +128,12 @@ std::vector<double> least_tension(const method::PolynomialSpace& space, const sc
 }
 
 Sources sources(const method::PolynomialSpace& space, int q, const scene::Field& force, const method::BoundaryValues& boundary,
-                const std::vector<double>& least_tension) {
+                const scene::FieldPtr& interface, const std::vector<double>& least_tension) {
   const mesh::Mesh& mesh = space.mesh();
   const auto host = mesh::on_host(mesh);
   Sources data{CellTable("thixis::equilibration::force", space.cells().extent(0), reference::dimension(q + 1)),
                View<double*>("thixis::equilibration::oscillation", mesh.owned_cells),
+               View<double*>("thixis::equilibration::sharp_oscillation", mesh.owned_cells),
                View<double*>("thixis::equilibration::traction_oscillation", mesh.owned_cells),
                {}};
   std::vector<double> square(mesh.owned_cells, 0.0), rest;
@@ -150,10 +152,14 @@ Sources sources(const method::PolynomialSpace& space, int q, const scene::Field&
     Kokkos::deep_copy(data.traction, traction);
   });
   const auto h = diameters(mesh);
-  const auto oscillation = Kokkos::create_mirror_view(data.oscillation),
+  std::vector<double> sharp(mesh.owned_cells);
+  for (LocalIndex K = 0; K < mesh.owned_cells; ++K) sharp[K] = poincare * h[K] * std::sqrt(square[K]);
+  sharpen_in_cut_cells(space, q, force, interface, sharp);
+  const auto oscillation = Kokkos::create_mirror_view(data.oscillation), of_sharp = Kokkos::create_mirror_view(data.sharp_oscillation),
              of_traction = Kokkos::create_mirror_view(data.traction_oscillation);
   for (LocalIndex K = 0; K < mesh.owned_cells; ++K) {
     oscillation(K) = h[K] / pi * std::sqrt(square[K] / least_tension[K]);
+    of_sharp(K) = sharp[K] / std::sqrt(least_tension[K]);
     for (int f = 0; f < 3 && neumann; ++f) {
       const LocalIndex F = host.cell_faces(K, f);
       if (rest[F] == 0) continue;
@@ -163,6 +169,7 @@ Sources sources(const method::PolynomialSpace& space, int q, const scene::Field&
     }
   }
   Kokkos::deep_copy(data.oscillation, oscillation);
+  Kokkos::deep_copy(data.sharp_oscillation, of_sharp);
   Kokkos::deep_copy(data.traction_oscillation, of_traction);
   return data;
 }

@@ -10,6 +10,7 @@ namespace thixis::equilibration {
 struct Sources {
   CellTable force;                     ///< (patch cell, dim P_{q+1}): density of the projection of f
   View<double*> oscillation;           ///< (owned cell): h_K/pi mu^{-1/2} |f - Pi_q f|_K
+  View<double*> sharp_oscillation;     ///< (owned cell): a smaller bound on the same (cut_oscillation.hpp)
   View<double*> traction_oscillation;  ///< (owned cell): what Neumann data leave (see below)
   CellTable traction;                  ///< for PatchFlux: Legendre moments of -psi_a t on Neumann faces; empty where there are none
 };
@@ -20,7 +21,7 @@ struct Sources {
 ///
 /// as (that constant)^{1/2} mu^{-1/2} |t - Pi_q t|_F. mu: its least value in the cell. Collective.
 Sources sources(const method::PolynomialSpace& space, int q, const scene::Field& force, const method::BoundaryValues& boundary,
-                const std::vector<double>& least_tension);
+                const scene::FieldPtr& interface, const std::vector<double>& least_tension);
 
 /// The least value of the tension at the quadrature points of each owned cell. Collective; throws InputError where it is not positive.
 std::vector<double> least_tension(const method::PolynomialSpace& space, const scene::Field& tension);

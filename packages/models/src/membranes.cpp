@@ -216,6 +216,7 @@ class MembraneDiscretization final : public Discretization {
     equilibration::ContactProblem contact;
     contact.count = scene_.count;
     contact.obstacle = scene_.obstacle;
+    contact.interface = scene_.interface_level_set;
     for (int alpha = 0; alpha < scene_.count; ++alpha) {
       contact.tension[alpha] = scene_.tension[alpha];
       contact.force[alpha] = scene_.force[alpha];

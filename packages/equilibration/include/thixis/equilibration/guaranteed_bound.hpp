@@ -15,7 +15,8 @@ struct ContactProblem {
   int count = 2;
   std::array<scene::FieldPtr, 2> tension, force;
   std::array<method::BoundaryValues, 2> boundary;
-  scene::FieldPtr obstacle;  ///< count = 1
+  scene::FieldPtr obstacle;   ///< count = 1
+  scene::FieldPtr interface;  ///< level set of the curves across which data jump; may be null
 };
 
 /// An iterate, any.
