@@ -1,31 +1,11 @@
-#include <Kokkos_Core.hpp>
-
 #include "cut.hpp"
 #include "patches.hpp"
+#include "refine_kernels.hpp"
 #include "thixis/mesh/build.hpp"
-#include "thixis/mesh/geometry.hpp"
 #include "thixis/mesh/host.hpp"
 
 namespace thixis::mesh {
 namespace {
-
-/// Keeps the vertices of the coarse level: same local number, same id.
-struct KeepVertices {
-  const Mesh& coarse;
-  HostMesh in;
-  Mesh& fine;
-  HostMesh out;  ///< first in.vertices entries written
-
-  void operator()(LocalIndex v) const {
-    for (int d = 0; d < 2; ++d) {
-      out.parameter(v, d) = in.parameter(v, d);
-      out.coordinates(v, d) = in.coordinates(v, d);
-    }
-    fine.vertex_id[v] = coarse.vertex_id[v];
-    fine.vertex_owner[v] = coarse.vertex_owner[v];
-    fine.vertex_parents[v] = {v, v};
-  }
-};
 
 /// Puts a vertex on the face F and halves it: half h = 0, 1 is 2F + h and holds the end vertex h. Leaves face_cells of the halves empty.
 struct CutFaces {
@@ -35,14 +15,10 @@ struct CutFaces {
   HostMesh out;
 
   void operator()(LocalIndex F) const {
-    const LocalIndex a = in.face_vertices(F, 0), b = in.face_vertices(F, 1), m = coarse.vertices + F;
-    const double x = 0.5 * (in.parameter(a, 0) + in.parameter(b, 0)), y = 0.5 * (in.parameter(a, 1) + in.parameter(b, 1));
-    const Point point = physical(fine.chart, {x, y});
-    out.parameter(m, 0) = x, out.parameter(m, 1) = y;
-    out.coordinates(m, 0) = point.x, out.coordinates(m, 1) = point.y;
+    const LocalIndex m = coarse.vertices + F;
+    put_on_midpoint(in, F, m, fine, out);
     fine.vertex_id[m] = coarse.global_vertices + coarse.face_id[F];
     fine.vertex_owner[m] = coarse.face_owner[F];
-    fine.vertex_parents[m] = {a, b};
 
     for (int h = 0; h < 2; ++h) {
       const LocalIndex H = 2 * F + h;
@@ -106,12 +82,6 @@ struct CutCells {
     return 2 * F + (in.face_vertices(F, 0) == vertex ? 0 : 1);
   }
 };
-
-template <class Kernel>
-void launch(const std::string& name, LocalIndex size, const Kernel& kernel) {
-  Kokkos::parallel_for("thixis::mesh::" + name,
-                       Kokkos::RangePolicy<Kokkos::DefaultHostExecutionSpace, Kokkos::IndexType<LocalIndex>>(0, size), kernel);
-}
 
 }  // namespace
 

@@ -8,6 +8,7 @@
 
 #include "thixis/algebra/solver.hpp"
 #include "thixis/algebra/tpetra.hpp"
+#include "thixis/mesh/adapt.hpp"
 #include "thixis/mesh/build.hpp"
 #include "thixis/mesh/geometry.hpp"
 #include "thixis/mesh/host.hpp"
@@ -74,6 +75,23 @@ Vector solved(const method::Space& V, const scene::Field& tension, const Vector&
   solver.set_matrix(V.stiffness(tension), 1, V.coordinates());
   EXPECT_LT(solver.solve(rhs, u, {1e-13 * rhs.norm2(), 0, nullptr}).residual, 1e-10 * rhs.norm2());
   return u;
+}
+
+/// Three adaptive levels, each around another corner of the first cell of the coarsest mesh, so that parts of the ranks move.
+void adapt_around_a_cell(mesh::Hierarchy& levels) {
+  const auto root = mesh::on_host(*levels.root);
+  for (int corner = 0; corner < 3; ++corner) {
+    const LocalIndex v = root.cell_vertices(0, corner);
+    const mesh::Mesh& mesh = levels.finest();
+    const auto host = mesh::on_host(mesh);
+    std::vector<LocalIndex> marked;
+    for (LocalIndex K = 0; K < mesh.owned_cells; ++K)
+      for (int i = 0; i < 3; ++i)
+        if (host.coordinates(host.cell_vertices(K, i), 0) == root.coordinates(v, 0) &&
+            host.coordinates(host.cell_vertices(K, i), 1) == root.coordinates(v, 1))
+          marked.push_back(K);
+    mesh::adapt(levels, marked);
+  }
 }
 
 class InteriorPenalty : public ::testing::TestWithParam<Setting> {
@@ -216,6 +234,19 @@ TEST_P(InteriorPenalty, prolongation_is_exact_for_polynomials_of_nested_meshes) 
   fine->prolongate(*coarse, coarse->complete(coarse_u, coarse->lift(everywhere(levels.levels[0], u.value()), 0)), values);
   fine->interpolate(*u.value(), 0, exact);
   EXPECT_LT(distance(values, exact), 1e-12);
+}
+
+TEST_P(InteriorPenalty, prolongation_is_exact_on_adaptive_levels) {
+  adapt_around_a_cell(levels);
+  const FieldPtr w = GetParam().generator == Generator::disk ? scene::constant(2) : u.value();
+  for (std::size_t j = 1; j < levels.levels.size(); ++j) {
+    const auto coarse = space(levels.levels[j - 1]), fine = space(levels.levels[j]);
+    Vector coarse_w(coarse->map()), values(fine->map()), exact(fine->map());
+    coarse->interpolate(*w, 0, coarse_w);
+    fine->prolongate(*coarse, coarse->complete(coarse_w, coarse->lift(everywhere(levels.levels[j - 1], w), 0)), values);
+    fine->interpolate(*w, 0, exact);
+    EXPECT_LT(distance(values, exact), 1e-12);
+  }
 }
 
 std::vector<Setting> settings() {

@@ -9,6 +9,7 @@
 #include "thixis/algebra/solver.hpp"
 #include "thixis/algebra/tpetra.hpp"
 #include "thixis/core/error.hpp"
+#include "thixis/mesh/adapt.hpp"
 #include "thixis/mesh/build.hpp"
 #include "thixis/mesh/geometry.hpp"
 #include "thixis/mesh/host.hpp"
@@ -94,6 +95,23 @@ struct Polynomial {
     return scene::formula([p = p](double x, double y) { return p < 2 ? 0.0 : -1.25 * p * (p - 1) * std::pow(inner(x, y), p - 2); });
   }
 };
+
+/// Three adaptive levels, each around another corner of the first cell of the coarsest mesh, so that parts of the ranks move.
+void adapt_around_a_cell(mesh::Hierarchy& levels) {
+  const auto root = mesh::on_host(*levels.root);
+  for (int corner = 0; corner < 3; ++corner) {
+    const LocalIndex v = root.cell_vertices(0, corner);
+    const mesh::Mesh& mesh = levels.finest();
+    const auto host = mesh::on_host(mesh);
+    std::vector<LocalIndex> marked;
+    for (LocalIndex K = 0; K < mesh.owned_cells; ++K)
+      for (int i = 0; i < 3; ++i)
+        if (host.coordinates(host.cell_vertices(K, i), 0) == root.coordinates(v, 0) &&
+            host.coordinates(host.cell_vertices(K, i), 1) == root.coordinates(v, 1))
+          marked.push_back(K);
+    mesh::adapt(levels, marked);
+  }
+}
 
 class Lagrange : public ::testing::TestWithParam<Setting> {
  protected:
@@ -255,6 +273,38 @@ TEST_P(Lagrange, prolongation_is_exact) {
     fine->prolongate(*coarse, coarse_w, values);
     EXPECT_LT(distance(values, interpolated(*fine, w)), 1e-12);
   }
+}
+
+TEST_P(Lagrange, prolongation_is_exact_on_adaptive_levels) {
+  adapt_around_a_cell(levels);
+  const FieldPtr w = nested() ? u.value() : scene::constant(2);
+  for (std::size_t j = 1; j < levels.levels.size(); ++j)
+    for (const bool held : {false, true}) {
+      const auto coarse = space(levels.levels[j - 1], held), fine = space(levels.levels[j], held);
+      const auto lift = coarse->lift(everywhere(levels.levels[j - 1], held ? w : nullptr), 0);
+      Vector values(fine->map()), X3(coarse->points()), finer(fine->points()), expected(fine->points());
+      fine->prolongate(*coarse, coarse->complete(interpolated(*coarse, w), lift), values);
+      EXPECT_LT(distance(values, interpolated(*fine, w)), 1e-12);
+      if (held) continue;
+      coarse->interpolate_multiplier(*w, 0, X3);
+      fine->prolongate_multiplier(*coarse, X3, finer);
+      fine->interpolate_multiplier(*w, 0, expected);
+      if (nested() || u.p == 1) {
+        EXPECT_LT(distance(finer, expected), 1e-11);
+      }
+    }
+}
+
+TEST_P(Lagrange, patch_test_on_an_adaptive_mesh) {
+  adapt_around_a_cell(levels);
+  const mesh::Mesh& finest = levels.finest();
+  const auto V = space(finest, true);
+  const auto boundary = everywhere(finest, u.value());
+  Vector F(V->map()), held(V->map());
+  V->load(*scene::constant(1), *u.minus_laplacian(), boundary, 0, F);
+  V->forces(*scene::constant(1), V->lift(boundary, 0), held);
+  F.update(-1, held, 1);
+  EXPECT_LT(distance(solved(*V, *scene::constant(1), F), interpolated(*V, u.value())), 1e-10);
 }
 
 TEST_P(Lagrange, a_multiplier_is_known_from_its_moments_and_goes_to_the_finer_mesh) {

@@ -9,6 +9,7 @@
 #include "problems.hpp"
 #include "thixis/algebra/solver.hpp"
 #include "thixis/algebra/tpetra.hpp"
+#include "thixis/mesh/adapt.hpp"
 #include "thixis/mesh/geometry.hpp"
 #include "thixis/mesh/host.hpp"
 #include "thixis/method/condensation.hpp"
@@ -78,6 +79,23 @@ struct Poisson {
     return std::sqrt(V.energy_error(*tension, V.complete(u, lift), exact, 0));
   }
 };
+
+/// Three adaptive levels, each around another corner of the first cell of the coarsest mesh, so that parts of the ranks move.
+void adapt_around_a_cell(mesh::Hierarchy& levels) {
+  const auto root = mesh::on_host(*levels.root);
+  for (int corner = 0; corner < 3; ++corner) {
+    const LocalIndex v = root.cell_vertices(0, corner);
+    const mesh::Mesh& mesh = levels.finest();
+    const auto host = mesh::on_host(mesh);
+    std::vector<LocalIndex> marked;
+    for (LocalIndex K = 0; K < mesh.owned_cells; ++K)
+      for (int i = 0; i < 3; ++i)
+        if (host.coordinates(host.cell_vertices(K, i), 0) == root.coordinates(v, 0) &&
+            host.coordinates(host.cell_vertices(K, i), 1) == root.coordinates(v, 1))
+          marked.push_back(K);
+    mesh::adapt(levels, marked);
+  }
+}
 
 class Hybrid : public ::testing::TestWithParam<Setting> {
  protected:
@@ -194,6 +212,32 @@ TEST_P(Hybrid, prolongation_is_exact) {
     fine->prolongate(*coarse, coarse_w, values);
     EXPECT_LT(distance(values, interpolated(*fine, w)), 1e-12);
   }
+}
+
+TEST_P(Hybrid, prolongation_is_exact_on_adaptive_levels) {
+  adapt_around_a_cell(levels);
+  const FieldPtr w = nested() ? u.value() : scene::constant(2);
+  for (std::size_t j = 1; j < levels.levels.size(); ++j) {
+    const auto coarse = space(levels.levels[j - 1], method(), true), fine = space(levels.levels[j], method(), true);
+    Vector values(fine->map()), X3(coarse->points()), finer(fine->points()), expected(fine->points());
+    fine->prolongate(*coarse, coarse->complete(interpolated(*coarse, w), coarse->lift(everywhere(levels.levels[j - 1], w), 0)), values);
+    EXPECT_LT(distance(values, interpolated(*fine, w)), 1e-12);
+    coarse->interpolate_multiplier(*w, 0, X3);
+    fine->prolongate_multiplier(*coarse, X3, finer);
+    fine->interpolate_multiplier(*w, 0, expected);
+    if (nested()) {
+      EXPECT_LT(distance(finer, expected), 1e-11);
+    }
+  }
+}
+
+TEST_P(Hybrid, patch_test_on_an_adaptive_mesh) {
+  adapt_around_a_cell(levels);
+  const auto V = space(levels.finest(), method(), true);
+  const Polynomial w = u;
+  const Poisson problem{*V, scene::constant(1), scene::formula([w](double x, double y) { return w.minus_laplacian(x, y); }),
+                        everywhere(levels.finest(), w.value())};
+  EXPECT_LT(distance(problem.condensed_solution(), interpolated(*V, w.value())), 1e-10);
 }
 
 TEST_P(Hybrid, a_multiplier_is_known_from_its_moments_and_goes_to_the_finer_mesh) {
