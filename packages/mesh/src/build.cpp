@@ -44,6 +44,13 @@ Mesh coarsest_mesh(const MeshParams& params, const core::Comm& comm, const std::
   return mesh;
 }
 
+/// A mesh that every rank holds whole, as the only rank of a communicator sees it.
+std::shared_ptr<const Mesh> alone(Mesh whole) {
+  whole.comm = core::Comm(MPI_COMM_SELF);
+  whole.owned_cells = whole.cells;
+  return std::make_shared<const Mesh>(std::move(whole));
+}
+
 /// Local numbers are 32 bit: cells, 1.5 times as many faces and the ghosts of a rank must fit.
 void require_size(const MeshParams& params, const Mesh& coarsest) {
   const double limit = 5e8, cells = static_cast<double>(coarsest.global_cells) * std::pow(4.0, params.refinements);
@@ -57,13 +64,15 @@ Hierarchy build(const MeshParams& params, const core::Comm& comm, const std::str
   if (const auto found = mistake(params)) throw core::InputError("mesh/" + found->parameter + ": " + found->sentence);
 
   Hierarchy hierarchy;
-  std::vector<Mesh>& levels = hierarchy.levels;
+  std::deque<Mesh>& levels = hierarchy.levels;
   levels.push_back(coarsest_mesh(params, comm, folder));
   require_size(params, levels[0]);
+  hierarchy.root = alone(levels[0]);
 
   const auto count = static_cast<std::size_t>(params.refinements) + 1;
   const GlobalIndex enough = static_cast<GlobalIndex>(params.cells_per_rank) * comm.size();
   while (levels.size() < count && levels.back().global_cells < enough) levels.push_back(refine(levels.back()));
+  hierarchy.partitioned = static_cast<int>(levels.size()) - 1;
   distribute(hierarchy);
   while (levels.size() < count) levels.push_back(refine(levels.back()));
   return hierarchy;

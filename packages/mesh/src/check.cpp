@@ -3,46 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "adaptive.hpp"
+#include "check_parents.hpp"
 #include "patches.hpp"
 #include "thixis/mesh/geometry.hpp"
 #include "thixis/mesh/host.hpp"
 
 namespace thixis::mesh {
 namespace {
-
-/// Counts of what is wrong on this rank; every rank makes the same entries in the same order.
-class Findings {
- public:
-  explicit Findings(const core::Comm& comm) : comm_(comm) {}
-
-  void add(const std::string& what, long long count) {
-    what_.push_back(what);
-    counts_.push_back(count);
-  }
-  /// Counts the entities 0..size-1 for which wrong(entity) holds.
-  template <class Wrong>
-  void count(const std::string& what, LocalIndex size, const Wrong& wrong) {
-    long long found = 0;
-    for (LocalIndex k = 0; k < size; ++k) found += wrong(k) ? 1 : 0;
-    add(what, found);
-  }
-  /// What was found on all ranks together.
-  std::vector<std::string> sentences() const {
-    std::vector<long long> totals = counts_;
-    comm_.sum(totals);
-    std::vector<std::string> found;
-    for (std::size_t k = 0; k < totals.size(); ++k)
-      if (totals[k] != 0) found.push_back(what_[k] + ": " + std::to_string(totals[k]));
-    return found;
-  }
-
- private:
-  core::Comm comm_;
-  std::vector<std::string> what_;
-  std::vector<long long> counts_;
-};
-
-bool inside(LocalIndex k, LocalIndex size) { return 0 <= k && k < size; }
 
 /// What makes all other checks safe to run.
 void check_indices(const Mesh& mesh, const HostMesh& host, Findings& findings) {
@@ -154,44 +122,6 @@ void check_ids(const Mesh& mesh, Findings& findings) {
   findings.add("ids of faces without exactly one owner", badly_owned(mesh.comm, mesh.face_id, mesh.face_owner, mesh.global_faces));
 }
 
-/// The relation of a level to the next coarser one.
-void check_parents(const Mesh& coarse, const Mesh& fine, Findings& findings) {
-  const bool sized = fine.cell_parent.size() == static_cast<std::size_t>(fine.cells) &&
-                     fine.vertex_parents.size() == static_cast<std::size_t>(fine.vertices);
-  findings.add("ranks with parents of another number than cells or vertices", sized ? 0 : 1);
-  if (fine.comm.any(!sized)) return;
-  const HostMesh above = on_host(coarse), host = on_host(fine);
-
-  std::vector<int> children(coarse.cells, 0);
-  std::vector<double> rest(coarse.cells);
-  for (LocalIndex K = 0; K < coarse.cells; ++K) rest[K] = cell_area(above.parameter, above.cell_vertices, K);
-  findings.count("cells whose parent has another id", fine.cells, [&](LocalIndex K) {
-    const LocalIndex parent = fine.cell_parent[K];
-    if (!inside(parent, coarse.cells) || coarse.cell_id[parent] != fine.cell_id[K] / 4) return true;
-    ++children[parent];
-    rest[parent] -= cell_area(host.parameter, host.cell_vertices, K);
-    return false;
-  });
-  findings.count("parents that their children do not fill", coarse.cells, [&](LocalIndex K) {
-    if (children[K] == 0) return false;  // a cell of a level held whole, far from this rank
-    return children[K] != 4 || !(std::abs(rest[K]) <= 1e-12 * cell_area(above.parameter, above.cell_vertices, K));
-  });
-  std::vector<bool> owned(coarse.vertices);
-  for (LocalIndex v = 0; v < coarse.vertices; ++v) owned[v] = coarse.vertex_owner[v] == coarse.comm.rank();
-  findings.count("cells around owned vertices that lack children", coarse.cells, [&](LocalIndex K) {
-    const auto vertices = Kokkos::subview(above.cell_vertices, K, Kokkos::ALL);
-    return (owned[vertices(0)] || owned[vertices(1)] || owned[vertices(2)]) && children[K] != 4;
-  });
-  findings.count("vertices that are not the midpoint of their parents", fine.vertices, [&](LocalIndex v) {
-    const auto [a, b] = fine.vertex_parents[v];
-    if (!inside(a, coarse.vertices) || !inside(b, coarse.vertices)) return true;
-    if ((a == b) != (fine.vertex_id[v] < coarse.global_vertices) || (a == b && fine.vertex_id[v] != coarse.vertex_id[a])) return true;
-    for (int d = 0; d < 2; ++d)
-      if (host.parameter(v, d) != 0.5 * (above.parameter(a, d) + above.parameter(b, d))) return true;
-    return false;
-  });
-}
-
 }  // namespace
 
 std::vector<std::string> check(const Mesh& mesh) {
@@ -215,7 +145,8 @@ std::vector<std::string> check(const Hierarchy& hierarchy) {
     std::vector<std::string> level = check(hierarchy.levels[j]);
     if (j > 0 && found.empty() && level.empty()) {
       Findings findings(hierarchy.levels[j].comm);
-      check_parents(hierarchy.levels[j - 1], hierarchy.levels[j], findings);
+      const bool uniform = !hierarchy.adaptive || static_cast<int>(j) < hierarchy.adaptive->uniform_levels;
+      check_parents(hierarchy.levels[j - 1], hierarchy.levels[j], uniform, findings);
       level = findings.sentences();
     }
     for (const std::string& sentence : level) found.push_back("level " + std::to_string(j) + ": " + sentence);

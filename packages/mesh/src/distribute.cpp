@@ -10,20 +10,6 @@
 namespace thixis::mesh {
 namespace {
 
-/// Writes the owners of the vertices and faces of a whole mesh: the lowest rank among those of the cells around.
-void set_owners(std::vector<int> cell_owner, Mesh& mesh) {
-  const HostMesh host = on_host(mesh);
-  std::fill(mesh.vertex_owner.begin(), mesh.vertex_owner.end(), std::numeric_limits<int>::max());
-  std::fill(mesh.face_owner.begin(), mesh.face_owner.end(), std::numeric_limits<int>::max());
-  for (LocalIndex K = 0; K < mesh.cells; ++K)
-    for (int i = 0; i < 3; ++i) {
-      int &at_vertex = mesh.vertex_owner[host.cell_vertices(K, i)], &at_face = mesh.face_owner[host.cell_faces(K, i)];
-      at_vertex = std::min(at_vertex, cell_owner[K]);
-      at_face = std::min(at_face, cell_owner[K]);
-    }
-  mesh.cell_owner = std::move(cell_owner);
-}
-
 std::vector<int> owners_of_first_children(const std::vector<int>& owner) {
   std::vector<int> coarse(owner.size() / 4);
   for (std::size_t K = 0; K < coarse.size(); ++K) coarse[K] = owner[4 * K];
@@ -61,7 +47,35 @@ void select_rows(const From& from, const std::vector<LocalIndex>& which, const T
     for (int d = 0; d < static_cast<int>(from.extent(1)); ++d) to(row, d) = from(which[row], d);
 }
 
-/// The part of a whole mesh made of the cells `kept`, in that order, the first `owned` of them owned; vertices and faces keep their order.
+/// Those of `candidates` whose parents share a vertex with the parent of one of `cells`: the patch of a coarse vertex has all its children
+/// on the rank that owns the vertex.
+std::vector<LocalIndex> near_parents(const Mesh& coarse, const Mesh& fine, const std::vector<LocalIndex>& cells,
+                                     const std::vector<LocalIndex>& candidates) {
+  std::vector<LocalIndex> all(coarse.cells);
+  std::iota(all.begin(), all.end(), 0);
+  std::vector<bool> near(coarse.cells, false);
+  for (const LocalIndex parent : cells_touching(coarse, selected(fine.cell_parent, cells), all)) near[parent] = true;
+  std::vector<LocalIndex> found;
+  for (const LocalIndex K : candidates)
+    if (near[fine.cell_parent[K]]) found.push_back(K);
+  return found;
+}
+
+}  // namespace
+
+void set_owners(std::vector<int> cell_owner, Mesh& mesh) {
+  const HostMesh host = on_host(mesh);
+  std::fill(mesh.vertex_owner.begin(), mesh.vertex_owner.end(), std::numeric_limits<int>::max());
+  std::fill(mesh.face_owner.begin(), mesh.face_owner.end(), std::numeric_limits<int>::max());
+  for (LocalIndex K = 0; K < mesh.cells; ++K)
+    for (int i = 0; i < 3; ++i) {
+      int &at_vertex = mesh.vertex_owner[host.cell_vertices(K, i)], &at_face = mesh.face_owner[host.cell_faces(K, i)];
+      at_vertex = std::min(at_vertex, cell_owner[K]);
+      at_face = std::min(at_face, cell_owner[K]);
+    }
+  mesh.cell_owner = std::move(cell_owner);
+}
+
 Mesh extract(const Mesh& whole, const std::vector<LocalIndex>& kept, LocalIndex owned) {
   const HostMesh in = on_host(whole);
   std::vector<LocalIndex> cell_number(whole.cells, -1);
@@ -115,32 +129,18 @@ Mesh extract(const Mesh& whole, const std::vector<LocalIndex>& kept, LocalIndex 
   part.face_id = selected(whole.face_id, faces.used);
   part.face_owner = selected(whole.face_owner, faces.used);
   part.cell_parent = selected(whole.cell_parent, kept);
+  part.cell_parent_id = selected(whole.cell_parent_id, kept);
+  part.cell_shape = selected(whole.cell_shape, kept);
   part.vertex_parents = selected(whole.vertex_parents, vertices.used);
   find_ghost_patch_cells(part);
   return part;
 }
 
-/// Those of `candidates` whose parents share a vertex with the parent of one of `cells`: the patch of a coarse vertex has all its children
-/// on the rank that owns the vertex.
-std::vector<LocalIndex> near_parents(const Mesh& coarse, const Mesh& fine, const std::vector<LocalIndex>& cells,
-                                     const std::vector<LocalIndex>& candidates) {
-  std::vector<LocalIndex> all(coarse.cells);
-  std::iota(all.begin(), all.end(), 0);
-  std::vector<bool> near(coarse.cells, false);
-  for (const LocalIndex parent : cells_touching(coarse, selected(fine.cell_parent, cells), all)) near[parent] = true;
-  std::vector<LocalIndex> found;
-  for (const LocalIndex K : candidates)
-    if (near[fine.cell_parent[K]]) found.push_back(K);
-  return found;
-}
-
-}  // namespace
-
 void distribute(Hierarchy& hierarchy) {
   Mesh& finest = hierarchy.levels.back();
   if (finest.comm.size() == 1) return;
 
-  std::vector<int> owner = partition(finest);
+  std::vector<int> owner = partition(finest, finest.comm);
   for (auto level = hierarchy.levels.rbegin(); level != hierarchy.levels.rend(); ++level) {
     std::vector<int> coarse_owner = owners_of_first_children(owner);
     set_owners(std::move(owner), *level);

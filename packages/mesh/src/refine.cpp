@@ -1,46 +1,11 @@
-#include <Kokkos_Core.hpp>
-
+#include "cut.hpp"
 #include "patches.hpp"
+#include "refine_kernels.hpp"
 #include "thixis/mesh/build.hpp"
-#include "thixis/mesh/geometry.hpp"
 #include "thixis/mesh/host.hpp"
 
 namespace thixis::mesh {
 namespace {
-
-/// How a triangle is cut, in its six points: 0..2 its vertices, 3 + i the midpoint of its face i.
-struct Cut {
-  int child[4][3];     ///< points of child c
-  int face[4][3];      ///< face i of child c: the interior face k as k, the half at vertex v of the parent's face k as 3 + 3 k + v
-  int interior[3][2];  ///< end points of the interior face k
-};
-constexpr int half(int k, int v) { return 3 + 3 * k + v; }
-
-constexpr Cut red = {{{0, 5, 4}, {5, 1, 3}, {4, 3, 2}, {3, 4, 5}},
-                     {{0, half(1, 0), half(2, 0)}, {half(0, 1), 1, half(2, 1)}, {half(0, 2), half(1, 2), 2}, {0, 1, 2}},
-                     {{4, 5}, {5, 3}, {3, 4}}};
-
-constexpr Cut bisection = {{{5, 3, 0}, {5, 1, 3}, {4, 3, 2}, {4, 0, 3}},
-                           {{0, half(2, 0), 2}, {half(0, 1), 2, half(2, 1)}, {half(0, 2), half(1, 2), 1}, {0, 1, half(1, 0)}},
-                           {{3, 0}, {3, 4}, {3, 5}}};
-
-/// Keeps the vertices of the coarse level: same local number, same id.
-struct KeepVertices {
-  const Mesh& coarse;
-  HostMesh in;
-  Mesh& fine;
-  HostMesh out;  ///< first in.vertices entries written
-
-  void operator()(LocalIndex v) const {
-    for (int d = 0; d < 2; ++d) {
-      out.parameter(v, d) = in.parameter(v, d);
-      out.coordinates(v, d) = in.coordinates(v, d);
-    }
-    fine.vertex_id[v] = coarse.vertex_id[v];
-    fine.vertex_owner[v] = coarse.vertex_owner[v];
-    fine.vertex_parents[v] = {v, v};
-  }
-};
 
 /// Puts a vertex on the face F and halves it: half h = 0, 1 is 2F + h and holds the end vertex h. Leaves face_cells of the halves empty.
 struct CutFaces {
@@ -50,14 +15,10 @@ struct CutFaces {
   HostMesh out;
 
   void operator()(LocalIndex F) const {
-    const LocalIndex a = in.face_vertices(F, 0), b = in.face_vertices(F, 1), m = coarse.vertices + F;
-    const double x = 0.5 * (in.parameter(a, 0) + in.parameter(b, 0)), y = 0.5 * (in.parameter(a, 1) + in.parameter(b, 1));
-    const Point point = physical(fine.chart, {x, y});
-    out.parameter(m, 0) = x, out.parameter(m, 1) = y;
-    out.coordinates(m, 0) = point.x, out.coordinates(m, 1) = point.y;
+    const LocalIndex m = coarse.vertices + F;
+    put_on_midpoint(in, F, m, fine, out);
     fine.vertex_id[m] = coarse.global_vertices + coarse.face_id[F];
     fine.vertex_owner[m] = coarse.face_owner[F];
-    fine.vertex_parents[m] = {a, b};
 
     for (int h = 0; h < 2; ++h) {
       const LocalIndex H = 2 * F + h;
@@ -76,7 +37,7 @@ struct CutCells {
   HostMesh in;
   Mesh& fine;
   HostMesh out;
-  Cut cut;
+  Cut cut;  ///< into four
 
   void operator()(LocalIndex K) const {
     const LocalIndex point[6] = {in.cell_vertices(K, 0),
@@ -111,6 +72,8 @@ struct CutCells {
     fine.cell_id[child] = 4 * coarse.cell_id[K] + c;
     fine.cell_owner[child] = coarse.cell_owner[K];
     fine.cell_parent[child] = K;
+    fine.cell_parent_id[child] = coarse.cell_id[K];
+    fine.cell_shape[child] = cut.shape[c];
   }
 
   LocalIndex interior_face(LocalIndex K, int k) const { return 2 * coarse.faces + 3 * K + k; }
@@ -119,12 +82,6 @@ struct CutCells {
     return 2 * F + (in.face_vertices(F, 0) == vertex ? 0 : 1);
   }
 };
-
-template <class Kernel>
-void launch(const std::string& name, LocalIndex size, const Kernel& kernel) {
-  Kokkos::parallel_for("thixis::mesh::" + name,
-                       Kokkos::RangePolicy<Kokkos::DefaultHostExecutionSpace, Kokkos::IndexType<LocalIndex>>(0, size), kernel);
-}
 
 }  // namespace
 
@@ -142,12 +99,14 @@ Mesh refine(const Mesh& coarse) {
   fine.refinement = coarse.refinement;
   fine.chart = coarse.chart;
   fine.cell_parent.resize(fine.cells);
+  fine.cell_parent_id.resize(fine.cells);
+  fine.cell_shape.resize(fine.cells);
   fine.vertex_parents.resize(fine.vertices);
 
   const HostMesh in = on_host(coarse), out = allocate(fine);
   launch("keep_vertices", coarse.vertices, KeepVertices{coarse, in, fine, out});
   launch("cut_faces", coarse.faces, CutFaces{coarse, in, fine, out});
-  const Cut& cut = coarse.refinement == Refinement::red ? red : bisection;
+  const Cut& cut = coarse.refinement == Refinement::red ? red : bisections[3];
   // An interior face has both its cells among the children, so that no entry of face_cells stays unset.
   launch("cut_cells", coarse.cells, CutCells{coarse, in, fine, out, cut});
   commit(out, fine);

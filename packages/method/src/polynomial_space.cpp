@@ -8,6 +8,7 @@
 #include "thixis/algebra/tpetra.hpp"
 #include "thixis/core/assert.hpp"
 #include "thixis/core/error.hpp"
+#include "thixis/mesh/ancestry.hpp"
 #include "thixis/method/gradient_form.hpp"
 #include "thixis/reference/quadrature.hpp"
 
@@ -43,6 +44,28 @@ std::vector<int> functions_on(const reference::CellBasis& basis, int f) {
     if (end || (entity.kind == reference::Entity::face && entity.index == f)) on.push_back(l);
   }
   return on;
+}
+
+/// T(s, i, j): coefficient i, in a child of shape s, of the basis function j of its parent.
+Kokkos::View<double***, Kokkos::LayoutRight> to_children(const reference::CellBasis& basis) {
+  const int n = basis.size();
+  const auto& shapes = mesh::child_shapes();
+  Kokkos::View<double***, Kokkos::LayoutRight> T("thixis::method::to_children", shapes.size(), n, n);
+  const auto out = Kokkos::create_mirror_view(T);
+  std::vector<double> at(2 * n);
+  for (std::size_t s = 0; s < shapes.size(); ++s) {
+    for (int l = 0; l < n; ++l) {
+      const double xi = basis.points()[2 * l], eta = basis.points()[2 * l + 1], lambda[3] = {1 - xi - eta, xi, eta};
+      for (int d = 0; d < 2; ++d)
+        at[2 * l + d] = lambda[0] * shapes[s][0][d + 1] + lambda[1] * shapes[s][1][d + 1] + lambda[2] * shapes[s][2][d + 1];
+    }
+    const auto table = basis.tabulate(n, at.data());
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j)
+        for (int l = 0; l < n; ++l) out(s, i, j) += basis.from_values()[i * n + l] * table.value[l * n + j];
+  }
+  Kokkos::deep_copy(T, out);
+  return T;
 }
 
 }  // namespace
@@ -295,82 +318,71 @@ void PolynomialSpace::interpolate(const scene::Field& u, double t, Vector& value
 
 // -- from the coarser mesh ----------------------------------------------------------------------------------------------------------
 
+Block2 PolynomialSpace::of_cells(const std::vector<GlobalIndex>& ids, const Coefficients& u) const {
+  const int n = functions();
+  const LocalIndex owned_cells = mesh_.owned_cells;
+  const auto entries = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), structure_.element_entries);
+  const auto u_host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), u);
+  const auto own = algebra::map_of({mesh_.cell_id.begin(), mesh_.cell_id.begin() + owned_cells}, mesh_.comm);
+  const auto needed = algebra::map_of(ids, mesh_.comm);
+  algebra::MultiVector owned(own, n), fetched(needed, n);
+  {
+    const auto values = owned.getLocalViewHost(Tpetra::Access::OverwriteAll);
+    for (LocalIndex K = 0; K < owned_cells; ++K)
+      for (int l = 0; l < n; ++l) values(K, l) = u_host(entries(K, l));
+  }
+  fetched.doImport(owned, algebra::Import(own, needed), Tpetra::INSERT);
+  const Block2 block("thixis::method::of_cells", ids.size(), n);
+  const auto out = Kokkos::create_mirror_view(block);
+  const auto values = fetched.getLocalViewHost(Tpetra::Access::ReadOnly);
+  for (std::size_t k = 0; k < ids.size(); ++k)
+    for (int l = 0; l < n; ++l) out(k, l) = values(k, l);
+  Kokkos::deep_copy(block, out);
+  return block;
+}
+
+Block2 PolynomialSpace::of_own_cells(const Coefficients& u) const {
+  const Block2 block("thixis::method::of_cells", mesh_.owned_cells, functions());
+  const auto out = Kokkos::create_mirror_view(block);
+  const auto entries = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), structure_.element_entries);
+  const auto u_host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), u);
+  for (LocalIndex K = 0; K < mesh_.owned_cells; ++K)
+    for (int l = 0; l < functions(); ++l) out(K, l) = u_host(entries(K, l));
+  Kokkos::deep_copy(block, out);
+  return block;
+}
+
 View<double**> PolynomialSpace::from_coarse(const PolynomialSpace& coarse, const Coefficients& coarse_u) const {
   const int n = functions();
-  const LocalIndex cells = cells_.extent_int(0), coarse_owned = coarse.mesh_.owned_cells;
+  const LocalIndex cells = cells_.extent_int(0);
   THIXIS_ASSERT_EQ(n, coarse.functions(), "levels have the same degree");
-
-  // the parents of this rank's cells may have another owner on the coarse mesh
-  std::vector<LocalIndex> place(coarse.mesh_.cells, -1), parents;
+  const View<LocalIndex*> child("thixis::method::child", cells), parent("thixis::method::parent", cells);
+  const auto child_host = Kokkos::create_mirror_view(child), parent_host = Kokkos::create_mirror_view(parent);
   bool all_here = true;
   for (LocalIndex k = 0; k < cells; ++k) {
-    const LocalIndex parent = mesh_.cell_parent[cells_(k)];
-    all_here = all_here && parent < coarse_owned;
-    if (place[parent] >= 0) continue;
-    place[parent] = static_cast<LocalIndex>(parents.size());
-    parents.push_back(parent);
+    const LocalIndex K = cells_(k);
+    child_host(k) = mesh_.cell_shape[K];
+    parent_host(k) = mesh_.cell_parent[K];
+    all_here = all_here && 0 <= parent_host(k) && parent_host(k) < coarse.mesh_.owned_cells;
   }
-  const Block2 of_parents("thixis::method::of_parents", parents.size(), n);
-  const auto out = Kokkos::create_mirror_view(of_parents);
-  const auto u = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), coarse_u);
-  const auto entries = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), coarse.structure_.element_entries);
-  if (mesh_.comm.all(all_here)) {
-    for (std::size_t p = 0; p < parents.size(); ++p)
-      for (int l = 0; l < n; ++l) out(p, l) = u(entries(coarse.position_[parents[p]], l));
-  } else {
-    std::vector<GlobalIndex> ids;
-    for (const LocalIndex K : parents) ids.push_back(coarse.mesh_.cell_id[K]);
-    const auto own = algebra::map_of({coarse.mesh_.cell_id.begin(), coarse.mesh_.cell_id.begin() + coarse_owned}, mesh_.comm);
-    const auto needed = algebra::map_of(ids, mesh_.comm);
-    algebra::MultiVector owned(own, n), fetched(needed, n);
-    {
-      const auto values = owned.getLocalViewHost(Tpetra::Access::OverwriteAll);
-      for (LocalIndex K = 0; K < coarse_owned; ++K)
-        for (int l = 0; l < n; ++l) values(K, l) = u(entries(K, l));
-    }
-    fetched.doImport(owned, algebra::Import(own, needed), Tpetra::INSERT);
-    const auto values = fetched.getLocalViewHost(Tpetra::Access::ReadOnly);
-    for (std::size_t p = 0; p < parents.size(); ++p)
-      for (int l = 0; l < n; ++l) out(p, l) = values(p, l);
-  }
-  Kokkos::deep_copy(of_parents, out);
 
-  // the four children of a cell lie alike in every cell
-  Kokkos::View<double***, Kokkos::LayoutRight> T("thixis::method::to_children", 4, n, n);
-  View<LocalIndex*> child("thixis::method::child", cells), parent("thixis::method::parent", cells);
-  const auto T_host = Kokkos::create_mirror_view(T);
-  const auto child_host = Kokkos::create_mirror_view(child), parent_host = Kokkos::create_mirror_view(parent);
-  bool known[4] = {};
-  for (LocalIndex k = 0; k < cells; ++k) {
-    const LocalIndex K = cells_(k), coarse_K = mesh_.cell_parent[K];
-    const int c = static_cast<int>(mesh_.cell_id[K] % 4);
-    child_host(k) = c;
-    parent_host(k) = place[coarse_K];
-    if (known[c]) continue;
-    known[c] = true;
-    double corner[3][3] = {};  // barycentric coordinates of the child's vertices in its parent
-    for (int i = 0; i < 3; ++i)
-      for (const LocalIndex v : mesh_.vertex_parents[host_.cell_vertices(K, i)])
-        for (int a = 0; a < 3; ++a) corner[i][a] += coarse.host_.cell_vertices(coarse_K, a) == v ? 0.5 : 0.0;
-    std::vector<double> at(2 * n);
-    for (int l = 0; l < n; ++l) {
-      const double xi = basis_.points()[2 * l], eta = basis_.points()[2 * l + 1], lambda[3] = {1 - xi - eta, xi, eta};
-      for (int d = 0; d < 2; ++d)
-        at[2 * l + d] = lambda[0] * corner[0][d + 1] + lambda[1] * corner[1][d + 1] + lambda[2] * corner[2][d + 1];
-    }
-    const auto table = basis_.tabulate(n, at.data());
-    for (int i = 0; i < n; ++i)
-      for (int j = 0; j < n; ++j) {
-        double sum = 0;
-        for (int l = 0; l < n; ++l) sum += basis_.from_values()[i * n + l] * table.value[l * n + j];
-        T_host(c, i, j) = sum;
-      }
+  // the parents of this rank's cells may have another owner on the coarse mesh
+  Block2 of_parents;
+  if (mesh_.comm.all(all_here)) {
+    of_parents = coarse.of_own_cells(coarse_u);
+  } else {
+    std::vector<GlobalIndex> ids(cells);
+    for (LocalIndex k = 0; k < cells; ++k) ids[k] = mesh_.cell_parent_id[cells_(k)];
+    std::sort(ids.begin(), ids.end());
+    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+    for (LocalIndex k = 0; k < cells; ++k)
+      parent_host(k) = static_cast<LocalIndex>(std::lower_bound(ids.begin(), ids.end(), mesh_.cell_parent_id[cells_(k)]) - ids.begin());
+    of_parents = coarse.of_cells(ids, coarse_u);
   }
-  Kokkos::deep_copy(T, T_host);
   Kokkos::deep_copy(child, child_host);
   Kokkos::deep_copy(parent, parent_host);
   const View<double**> fine("thixis::method::from_coarse", cells, n);
-  restrict_to_children({T, child, parent}, of_parents, fine);
+  restrict_to_children({to_children(basis_), child, parent}, of_parents, fine);
   return fine;
 }
 

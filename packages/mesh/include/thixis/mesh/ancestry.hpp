@@ -1,6 +1,5 @@
 #pragma once
 #include <array>
-#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -8,14 +7,15 @@
 
 namespace thixis::mesh {
 
-/// How a child lies in its parent: an index into child_shapes().
-using ChildShape = std::uint8_t;
-
 /// Barycentric coordinates, in the parent, of the vertices of a child.
 using Corners = std::array<std::array<double, 3>, 3>;
 
-/// Every way in which a refinement cuts a child out of its parent: whole (0: the cell stays as it is), the four of the red refinement, and
-/// those of one or two newest-vertex bisections.
+/// Every way in which a refinement cuts a child out of its parent, by ChildShape:
+///   0           whole: the cell stays as it is;
+///   1 + c       child c of the red refinement;
+///   5 + 6e + b  newest-vertex bisections of a cell with the refinement edge e, in its vertices (v0, v1, v2) counted from vertex e on, with
+///               M, P, Q the midpoints of the faces opposite v0, v2, v1: once (M, v0, v1), (M, v2, v0), and twice (P, M, v0), (P, v1, M),
+///               (Q, M, v2), (Q, v0, M).
 const std::vector<Corners>& child_shapes();
 
 /// The ancestors of the cells that this rank owns on one level of a hierarchy, down to the coarsest mesh: what is summed up over children

@@ -1,6 +1,9 @@
 #pragma once
 #include <Kokkos_Core.hpp>
 #include <array>
+#include <cstdint>
+#include <deque>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -24,6 +27,9 @@ enum class Chart {
   disk  ///< hexagon to disk: hexagonal norm -> radius, fraction of a side -> fraction of 60 degrees
 };
 
+/// How a child lies in its parent: an index into child_shapes() (thixis/mesh/ancestry.hpp); 0: the child is the whole parent.
+using ChildShape = std::uint8_t;
+
 /// One level of a triangle mesh as one rank sees it: its own cells, then the ghost cells.
 ///
 /// Levels coarser than the one that is partitioned are held whole by every rank. On that level the ghosts are all cells that share a vertex
@@ -33,6 +39,9 @@ enum class Chart {
 /// 0..owned_cells-1 are owned; vertices and faces have an owner that every rank knows without communication: one of those of the cells
 /// around. `*_id` are global identities that do not depend on the number of ranks: contiguous 0..global_*-1, vertex ids of a level go on in
 /// the next one.
+///
+/// Adaptive levels have their own partition each: the ghosts are the cells that share a vertex with an owned one, and the parent of a cell
+/// may be on another rank.
 ///
 /// Local numbering of a cell: vertices counter-clockwise, face i opposite vertex i. A face goes from its vertex of lower id to the
 /// one of higher id; its normal is the tangent turned by -90 degrees.
@@ -59,16 +68,25 @@ struct Mesh {
   std::vector<int> cell_owner, vertex_owner, face_owner;  ///< ranks
 
   /// Relation to the next coarser level (empty on the coarsest).
-  std::vector<LocalIndex> cell_parent;                    ///< coarse local cell
-  std::vector<std::array<LocalIndex, 2>> vertex_parents;  ///< coarse local vertices; both the same for a vertex of the coarse level
+  std::vector<LocalIndex> cell_parent;      ///< coarse local cell; -1: not on this rank
+  std::vector<GlobalIndex> cell_parent_id;  ///< its id
+  std::vector<ChildShape> cell_shape;       ///< how the cell lies in it
+  std::vector<std::array<LocalIndex, 2>>
+      vertex_parents;  ///< coarse local vertices; both the same for a vertex of the coarse level; -1: not here
 
   Refinement refinement = Refinement::red;  ///< towards the next finer level
   Chart chart = Chart::identity;
 };
 
-/// Nested meshes, coarsest first.
+struct Adaptive;
+
+/// Nested meshes, coarsest first: uniform refinements, then adaptive ones.
 struct Hierarchy {
-  std::vector<Mesh> levels;
+  std::deque<Mesh> levels;           ///< references to them stay valid when levels are appended
+  std::shared_ptr<const Mesh> root;  ///< the coarsest mesh, whole on every rank, alone on its communicator, ids = local numbers
+  int partitioned = 0;               ///< the level whose cells were shared out to the ranks
+
+  std::shared_ptr<const Adaptive> adaptive;  ///< what mesh::adapt goes on from; null without adaptive levels
   const Mesh& finest() const { return levels.back(); }
 };
 

@@ -102,7 +102,13 @@ class PolynomialSpace : public Space {
   ElementUnknowns elements_;       ///< (patch cell, i) -> column
 
  private:
+  using CellCoefficients = Kokkos::View<double**, Kokkos::LayoutRight>;
+
   int functions() const { return basis_.size(); }
+  /// (k, l): coefficients of the polynomial in the cell ids[k], whichever rank owns it. Collective.
+  CellCoefficients of_cells(const std::vector<GlobalIndex>& ids, const Coefficients& u) const;
+  /// The same of all owned cells; not collective.
+  CellCoefficients of_own_cells(const Coefficients& u) const;
   double error(const scene::Field& tension, const Coefficients& u, const Gradient* exact, double t) const;
 
   std::vector<LocalIndex> position_;
