@@ -33,7 +33,7 @@ bool solve() {
   namespace drive = thixis::drive;
   const auto deck = thixis::core::Deck::from_text(text, "client");
   const auto params = deck.parse(drive::RunParams::schema());
-  const auto hierarchy = thixis::mesh::build(params.mesh, thixis::core::Comm(), deck.folder());
+  auto hierarchy = thixis::mesh::build(params.mesh, thixis::core::Comm(), deck.folder());
   const auto model = thixis::models::membranes(thixis::scene::membrane_scene(params.scene), thixis::fem::make_lagrange_space, params.method,
                                                params.linear, {});
   const drive::Outcome outcome = drive::solve_stationary(*model, hierarchy, params, {});

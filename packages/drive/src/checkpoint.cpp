@@ -4,8 +4,12 @@
 
 #include <cmath>
 #include <filesystem>
+#include <numeric>
 
+#include "marking.hpp"
 #include "thixis/algebra/tpetra.hpp"
+#include "thixis/core/timer.hpp"
+#include "thixis/mesh/adapt.hpp"
 
 namespace thixis::drive {
 namespace {
@@ -13,6 +17,19 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string absolute(const std::string& path) { return fs::absolute(path).lexically_normal().string(); }
+
+/// The block with the cells whose refinement made `level`.
+std::string marks_of(int level) { return fmt::format("marked for level {}", level); }
+
+/// Known everywhere, brought by the root: ids 0, 1, ..., values the global ids of the cells.
+output::CheckpointBlock block_of(int level, const std::vector<GlobalIndex>& marked, bool root) {
+  output::CheckpointBlock block{marks_of(level), {}, {}};
+  if (!root) return block;
+  block.ids.resize(marked.size());
+  std::iota(block.ids.begin(), block.ids.end(), 0);
+  block.values.assign(marked.begin(), marked.end());
+  return block;
+}
 
 }  // namespace
 
@@ -42,8 +59,24 @@ bool CheckpointFile::write(const Position& at, const models::Discretization& dis
                            {"newton_iterations", at.newton_iterations},         {"linear_iterations", at.linear_iterations},
                            {"history_rows", static_cast<double>(history_rows)}, {"seconds", mesh.comm.max(seconds)}};
   checkpoint.blocks = discretization.save(X);
+  for (const auto& [level, marked] : marked_)
+    if (level <= at.level) checkpoint.blocks.push_back(block_of(level, marked, mesh.comm.root()));
   output::write_checkpoint(path_, checkpoint, mesh.comm);
   return true;
+}
+
+void replay(const output::StoredCheckpoint& stored, mesh::Hierarchy& hierarchy, CheckpointFile& checkpoint) {
+  const core::Region region("mesh");
+  for (auto level = static_cast<int>(hierarchy.levels.size()); level <= stored.level(); ++level) {
+    const GlobalIndex count = stored.size(marks_of(level));
+    if (count < 0) return;  // check_restart has the sentence
+    std::vector<GlobalIndex> ids(count);
+    std::iota(ids.begin(), ids.end(), 0);
+    const std::vector<double> values = stored.fetch(marks_of(level), ids);
+    const std::vector<GlobalIndex> marked(values.begin(), values.end());
+    mesh::adapt(hierarchy, owned(hierarchy.finest(), marked));
+    checkpoint.refined(level, marked);
+  }
 }
 
 Position position_of(const output::StoredCheckpoint& stored) {

@@ -1,4 +1,6 @@
 #pragma once
+#include <map>
+
 #include "thixis/core/deck.hpp"
 #include "thixis/drive/stationary.hpp"
 #include "thixis/output/checkpoint.hpp"
@@ -13,6 +15,8 @@ class CheckpointFile {
   const std::string& path() const { return path_; }
   /// Removes what an older run has left. Collective.
   void remove(const core::Comm& comm) const;
+  /// Remembers that the mesh of `level` came from refining these cells of the one before: no deck can say that.
+  void refined(int level, const std::vector<GlobalIndex>& marked) { marked_[level] = marked; }
   /// Writes an iterate; one that is not finite is not worth it: returns false and leaves the file as it is. `history_rows`, `seconds`:
   /// rows of history.csv and wall clock so far. Collective.
   bool write(const Position& at, const models::Discretization& discretization, const algebra::Vector& X, GlobalIndex history_rows,
@@ -22,7 +26,12 @@ class CheckpointFile {
   std::string path_;
   output::Checkpoint frame_;  ///< deck and folder
   const mesh::Hierarchy& hierarchy_;
+  std::map<int, std::vector<GlobalIndex>> marked_;  ///< by the level that came from it
 };
+
+/// Appends the meshes that adaptivity had added to those of the deck before the checkpoint was written, and tells `checkpoint` so.
+/// Collective.
+void replay(const output::StoredCheckpoint& stored, mesh::Hierarchy& hierarchy, CheckpointFile& checkpoint);
 
 /// What a checkpoint knows beside the iterate.
 Position position_of(const output::StoredCheckpoint& stored);

@@ -31,6 +31,8 @@ struct Clauses {
 std::vector<std::string> missed(const ExpectParams& expect, const Outcome& outcome, long long cells) {
   Clauses clauses;
   std::optional<double> kkt;
+  std::optional<double> bound;
+  if (outcome.estimate) bound = outcome.estimate->total;
   if (outcome.kkt) kkt = outcome.kkt->worst();
   if (!outcome.not_wanted) {
     clauses.at_most("energy error", outcome.energy_error, expect.energy_error_at_most);
@@ -39,7 +41,8 @@ std::vector<std::string> missed(const ExpectParams& expect, const Outcome& outco
     clauses.at_most("number of Newton steps on the finest level", std::optional(outcome.at.newton_on_level), expect.newton_finest_at_most);
     clauses.at_most("number of Krylov iterations", std::optional(outcome.at.linear_iterations), expect.linear_iterations_at_most);
     clauses.at_most("violation of the contact conditions", kkt, expect.kkt_at_most);
-    clauses.between("effectivity", std::nullopt, expect.effectivity_between);
+    clauses.at_most("bound", bound, expect.bound_at_most);
+    clauses.between("effectivity", outcome.effectivity(), expect.effectivity_between);
   }
   clauses.equal("unknowns:", outcome.discretization->sizes().unknowns_all, expect.unknowns);
   clauses.equal("cells:", cells, expect.cells);

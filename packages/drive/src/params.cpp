@@ -1,5 +1,6 @@
 #include "thixis/drive/params.hpp"
 
+#include <algorithm>
 #include <sstream>
 
 namespace thixis::drive {
@@ -16,7 +17,35 @@ void check_pair(const std::optional<std::vector<double>>& pair, const std::strin
     problems.add(name, "must hold the smallest and the largest value allowed, e.g. {1.0, 1.2}.");
 }
 
+core::Range above_0_up_to_1() {
+  core::Range range = core::between(0, 1);
+  range.lower_open = true;
+  return range;
+}
+
+bool of_estimate(const std::string& name) { return std::count(names_of_estimate().begin(), names_of_estimate().end(), name) > 0; }
+
 }  // namespace
+
+const std::vector<std::string>& names_of_estimate() {
+  static const std::vector<std::string> names = {"eta_disc", "eta_lin", "eta_alg"};
+  return names;
+}
+
+std::vector<std::string> OutputParams::estimate_names() const {
+  if (fields == "all") return names_of_estimate();
+  std::vector<std::string> names;
+  for (const auto& name : field_names())
+    if (of_estimate(name)) names.push_back(name);
+  return names;
+}
+
+std::vector<std::string> OutputParams::model_names() const {
+  std::vector<std::string> names;
+  for (const auto& name : field_names())
+    if (!of_estimate(name)) names.push_back(name);
+  return names;
+}
 
 std::vector<std::string> OutputParams::field_names() const {
   std::vector<std::string> names;
@@ -38,6 +67,21 @@ const core::Schema<OutputParams>& OutputParams::schema() {
   return schema;
 }
 
+const core::Schema<AdaptParams>& AdaptParams::schema() {
+  static const auto schema =
+      core::Schema<AdaptParams>("adapt",
+                                "How the mesh is refined until the error is guaranteed to be at most stopping/target; without a target, "
+                                "as far as the limits allow.")
+          .choice("marking", &AdaptParams::marking, {{"dorfler", Marking::dorfler}, {"uniform", Marking::uniform}},
+                  "The fewest cells with a given share of the squared discretization error, or all cells.")
+          .parameter("theta", &AdaptParams::theta, above_0_up_to_1(),
+                     "Share of marking = dorfler: the marked cells hold theta² of the squared discretization error.")
+          .parameter("max levels", &AdaptParams::max_levels, core::at_least(0), "Meshes that are added to those of the deck at most.")
+          .parameter("max unknowns", &AdaptParams::max_unknowns, core::at_least(1),
+                     "No mesh with more unknowns is solved, the multiplier counted.");
+  return schema;
+}
+
 const core::Schema<ExpectParams>& ExpectParams::schema() {
   static const auto schema =
       core::Schema<ExpectParams>("expect", "What must hold of the result; if it does not, the run ends with exit code 4.")
@@ -49,6 +93,7 @@ const core::Schema<ExpectParams>& ExpectParams::schema() {
           .parameter("linear iterations at most", &ExpectParams::linear_iterations_at_most, core::at_least(0), "Krylov iterations in all.")
           .parameter("kkt at most", &ExpectParams::kkt_at_most, core::above(0), "Largest violation of the contact conditions, relative.")
           .parameter("effectivity between", &ExpectParams::effectivity_between, "Smallest and largest ratio of bound and true error.")
+          .parameter("bound at most", &ExpectParams::bound_at_most, core::above(0), "Largest guaranteed bound on the energy error.")
           .parameter("unknowns", &ExpectParams::unknowns, core::at_least(0), "Number of unknowns, the multiplier included.")
           .parameter("cells", &ExpectParams::cells, core::at_least(0), "Number of cells.")
           .check([](const ExpectParams& params, core::Problems& problems) {
@@ -67,9 +112,14 @@ const core::Schema<RunParams>& RunParams::schema() {
                                  .block("newton", &RunParams::newton, complementarity::NewtonParams::schema())
                                  .block("linear", &RunParams::linear, algebra::LinearParams::schema())
                                  .block("stopping", &RunParams::stopping, complementarity::StoppingParams::schema())
+                                 .block("adapt", &RunParams::adapt, AdaptParams::schema())
                                  .block("output", &RunParams::output, OutputParams::schema())
                                  .block("expect", &RunParams::expect, ExpectParams::schema());
   return schema;
+}
+
+bool RunParams::estimated() const {
+  return stopping.estimate.value_or(false) || stopping.rule == complementarity::StoppingRule::adaptive || adaptive();
 }
 
 }  // namespace thixis::drive

@@ -12,6 +12,9 @@
 
 namespace thixis::drive {
 
+/// The cell fields of the estimate: eta_disc, eta_lin, eta_alg.
+const std::vector<std::string>& names_of_estimate();
+
 /// Block `output` of the deck.
 struct OutputParams {
   std::string directory;       ///< empty: results/<name of the deck>
@@ -21,7 +24,21 @@ struct OutputParams {
   static const core::Schema<OutputParams>& schema();
   /// The names in `fields`; nothing for `all`. `none` is asked for by `no_fields`.
   std::vector<std::string> field_names() const;
+  /// Those that the driver itself can show, of the estimate (`names_of_estimate`), and those that are left to the model.
+  std::vector<std::string> estimate_names() const, model_names() const;
   bool no_fields() const { return fields == "none"; }
+};
+
+enum class Marking { dorfler, uniform };
+
+/// Block `adapt` of the deck: how the mesh is refined on the way to stopping/target, or as far as its limits allow where there is no
+/// target.
+struct AdaptParams {
+  Marking marking = Marking::dorfler;
+  double theta = 0.5;
+  int max_levels = 30;               ///< beyond the meshes of the deck
+  long long max_unknowns = 1000000;  ///< all fields with the multiplier
+  static const core::Schema<AdaptParams>& schema();
 };
 
 /// Block `expect` of the deck: what the run checks of its own result (exit code 4 if it does not hold).
@@ -31,6 +48,7 @@ struct ExpectParams {
   std::optional<int> newton_iterations_at_most, newton_finest_at_most, linear_iterations_at_most;
   std::optional<double> kkt_at_most;
   std::optional<std::vector<double>> effectivity_between;
+  std::optional<double> bound_at_most;
   std::optional<long long> unknowns, cells;
   static const core::Schema<ExpectParams>& schema();
 };
@@ -43,9 +61,15 @@ struct RunParams {
   complementarity::NewtonParams newton;
   algebra::LinearParams linear;
   complementarity::StoppingParams stopping;
+  std::optional<AdaptParams> adapt;
   OutputParams output;
   ExpectParams expect;
   static const core::Schema<RunParams>& schema();
+
+  /// Whether meshes are added to those of the deck: for a target, or because a block `adapt` asks for it.
+  bool adaptive() const { return adapt || stopping.target; }
+  /// Whether the error is estimated: asked for, or needed by the stopping rule or for adaptivity.
+  bool estimated() const;
 };
 
 }  // namespace thixis::drive

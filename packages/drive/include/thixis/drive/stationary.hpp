@@ -16,6 +16,7 @@ struct Progress {
   std::optional<int> newton, linear;
   std::optional<long long> active, changed;
   std::optional<double> residual, energy_error;
+  std::optional<complementarity::Estimate> estimate;
 };
 
 /// How far a solve has come. Behind a restart everything that was done before it counts, too.
@@ -31,6 +32,10 @@ struct Observer {
   std::function<void(const Progress&, const complementarity::NewtonRecord&)> step;
   std::function<void(const Position&, const models::Discretization&, const algebra::Vector& X)> iterate;  ///< after `step`
   std::function<void(const Progress&)> check;
+  /// The end of a level, solved or not, with its estimate and energy error; only where the error is estimated.
+  std::function<void(const Progress&)> level_end;
+  /// The mesh of `level` has come from refining the cells with these ids (rising, the same on all ranks) of the level before.
+  std::function<void(int level, const std::vector<GlobalIndex>& marked)> refined;
   std::function<void(const std::string&)> message;
 };
 
@@ -47,15 +52,26 @@ struct Outcome {
   double kkt_tolerance = 0;  ///< what the verifier lets pass
   std::optional<double> energy_error;
   double energy_norm = 0;
+  bool nested = false;                                ///< the level began (also before a restart) from the solution on the one before
+  std::optional<complementarity::Estimate> estimate;  ///< at X, where the error is estimated; not if X is not finite
+  models::CellEstimates cell_estimates;
+  std::optional<models::PublishedEstimate> published;  ///< stopping/estimate = true only
+  std::string refinement_ended;  ///< adaptive runs that ended without the target: by which limit, e.g. "adapt/max levels = 3"
+
+  std::optional<double> effectivity() const;  ///< estimate / energy error, if both are known
 };
 
 /// Solves a stationary scene: on the finest mesh from a cold start, or (newton/start = nested) on all meshes, coarsest first, each from the
 /// solution on the mesh before. Keeps the last iterate where Newton does not converge.
 ///
+/// Adaptive runs (RunParams::adaptive) go on from there: they mark cells by their discretization error, append a level to the hierarchy and
+/// solve on it, from the solution before, until the bound meets stopping/target or a limit of `adapt` comes first. No mesh with more than
+/// adapt/max unknowns is solved; InputError if one of those to begin with has more.
+///
 /// With a checkpoint (`stored`, not null) it goes on from the level and the iterate of that one, and on finer levels as `nested` does.
 /// Newton itself begins anew there: `newton/max iterations` limits the steps since the restart, and what its safeguards had seen (cycles,
 /// damped steps under way) is forgotten. Step numbers and counts go on.
-Outcome solve_stationary(const models::Model& model, const mesh::Hierarchy& hierarchy, const RunParams& params, const Observer& observer,
+Outcome solve_stationary(const models::Model& model, mesh::Hierarchy& hierarchy, const RunParams& params, const Observer& observer,
                          const output::StoredCheckpoint* stored = nullptr);
 
 }  // namespace thixis::drive

@@ -1,0 +1,49 @@
+#include "adaptive.hpp"
+
+#include <fmt/format.h>
+
+#include "marking.hpp"
+#include "thixis/core/timer.hpp"
+#include "thixis/mesh/adapt.hpp"
+
+namespace thixis::drive {
+namespace {
+
+void refine(mesh::Hierarchy& hierarchy, const std::vector<GlobalIndex>& marked) {
+  const core::Region region("mesh");
+  mesh::adapt(hierarchy, owned(hierarchy.finest(), marked));
+}
+
+}  // namespace
+
+void solve_adaptively(LevelSolver& solver, mesh::Hierarchy& hierarchy, const RunParams& params, const Observer& observer) {
+  const AdaptParams adapt = params.adapt.value_or(AdaptParams());
+  Outcome& outcome = solver.outcome();
+  const auto end = [&outcome](const std::string& why) { outcome.refinement_ended = why; };
+
+  for (int added = static_cast<int>(hierarchy.levels.size()) - 1 - params.mesh.refinements; solver.goes_on(); ++added) {
+    if (params.stopping.target && outcome.estimate->total <= *params.stopping.target) return;
+    if (added >= adapt.max_levels) return end(fmt::format("adapt/max levels = {}", adapt.max_levels));
+
+    const auto marked = mark(*outcome.mesh, adapt, outcome.discretization->cell_estimates().discretization);
+    if (marked.empty()) return end("no cell with a discretization error");
+    refine(hierarchy, marked);
+
+    const int level = outcome.at.level + 1;
+    auto finer = solver.discretize(level);
+    if (finer->sizes().unknowns_all > adapt.max_unknowns) return end(fmt::format("adapt/max unknowns = {}", adapt.max_unknowns));
+    if (observer.refined) observer.refined(level, marked);
+    solver.solve(level, std::move(finer));
+  }
+}
+
+void require_allowed(const models::Discretization& discretization, const RunParams& params) {
+  const long long most = params.adapt.value_or(AdaptParams()).max_unknowns;
+  const GlobalIndex unknowns = discretization.sizes().unknowns_all;
+  if (params.adaptive() && unknowns > most)
+    throw core::InputError(fmt::format(
+        "adapt/max unknowns: the run begins on a mesh with {} unknowns, more than {}; write at least as many, or fewer mesh/refinements.",
+        unknowns, most));
+}
+
+}  // namespace thixis::drive

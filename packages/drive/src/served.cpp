@@ -1,0 +1,87 @@
+#include <fmt/format.h>
+
+#include "thixis/core/error.hpp"
+#include "thixis/drive/run.hpp"
+
+namespace thixis::drive {
+namespace {
+
+using Mistakes = std::vector<std::string>;
+
+/// What is not known stays unjudged: other mistakes of the scene are told by the model.
+bool exact_solution_missing(const RunParams& params) {
+  try {
+    return !scene::membrane_scene(params.scene).exact;
+  } catch (const core::InputError&) {
+    return false;
+  }
+}
+
+void judge_estimate(const RunParams& params, Mistakes& mistakes) {
+  using complementarity::StoppingRule;
+  const auto& stopping = params.stopping;
+  const auto steered = [&](bool given, const char* path, const char* what) {
+    if (given && stopping.estimate == false)
+      mistakes.push_back(
+          fmt::format("{}: {} needs the error estimate, which stopping/estimate = false forbids; write true there, or leave "
+                      "it out.",
+                      path, what));
+  };
+  steered(stopping.rule == StoppingRule::adaptive, "stopping/rule", "the rule adaptive");
+  steered(stopping.target.has_value(), "stopping/target", "a target");
+  steered(params.adapt.has_value(), "adapt", "adaptive refinement");
+  if (stopping.local && stopping.rule != StoppingRule::adaptive)
+    mistakes.push_back("stopping/local: only the rule adaptive looks at single cells; write stopping/rule = adaptive, or leave this out.");
+
+  if (params.estimated()) {
+    if (params.expect.effectivity_between && exact_solution_missing(params))
+      mistakes.push_back(
+          "expect/effectivity between: without the exact solution nobody knows the true error; leave this out, or expect "
+          "'bound at most'.");
+    return;
+  }
+  const char* nobody = "nobody estimates the error; write stopping/estimate = true.";
+  if (params.expect.effectivity_between) mistakes.push_back(fmt::format("expect/effectivity between: {}", nobody));
+  if (params.expect.bound_at_most) mistakes.push_back(fmt::format("expect/bound at most: {}", nobody));
+  if (params.output.fields == "all") return;
+  for (const auto& name : params.output.estimate_names())
+    mistakes.push_back(fmt::format("output/fields: there is no '{}', for {}", name, nobody));
+}
+
+void judge_method(const RunParams& params, Mistakes& mistakes) {
+  const method::MethodParams& method = params.method;
+  const bool fem = method.name == method::MethodName::fem, dg = method.name == method::MethodName::dg;
+  const bool interior = method.name == method::MethodName::hho || (fem && method.degree >= 3);
+  if (method.condensation.value_or(false) && !interior)
+    mistakes.push_back(
+        fmt::format("method/condensation: {} of degree {} has no unknowns that belong to one cell alone; write false or leave it out.",
+                    method::to_text(method.name), method.degree));
+  if (params.newton.sweeps.value_or(0) > 0 && !method.symmetric())
+    mistakes.push_back("newton/sweeps: smoothing needs a symmetric form, which nipg is not; write 0, or method/variant = sipg.");
+
+  const algebra::LinearParams& linear = params.linear;
+  const bool cg = linear.solver == algebra::SolverKind::cg;
+  const bool muelu = linear.solver != algebra::SolverKind::direct && linear.preconditioner == algebra::PreconditionerKind::muelu;
+  const bool full = linear.form == algebra::SystemForm::full && !(method.condensed() && interior);
+  const bool nipg = dg && method.variant == method::Variant::nipg;
+  if (cg && full)
+    mistakes.push_back("linear/form: the full system is not symmetric, so cg can not solve it: write 'reduced', or the solver 'gmres'.");
+  if (muelu && full) mistakes.push_back("linear/form: muelu fails on the full system: write 'reduced', or the preconditioner 'ilu'.");
+  if (cg && nipg)
+    mistakes.push_back(
+        "linear/solver: conjugate gradients need a symmetric system, and that of nipg is not: write 'gmres', or the variant 'sipg'.");
+  if (muelu && nipg)
+    mistakes.push_back(
+        "linear/preconditioner: muelu needs a symmetric system, and that of nipg is not: write 'ilu', or the variant 'sipg'.");
+}
+
+}  // namespace
+
+void check_served(const RunParams& params) {
+  Mistakes mistakes;
+  judge_estimate(params, mistakes);
+  judge_method(params, mistakes);
+  if (!mistakes.empty()) throw core::InputError(fmt::format("{}", fmt::join(mistakes, "\n")));
+}
+
+}  // namespace thixis::drive

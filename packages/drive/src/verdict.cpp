@@ -1,0 +1,54 @@
+#include "verdict.hpp"
+
+#include <fmt/format.h>
+
+#include "expectations.hpp"
+
+namespace thixis::drive {
+namespace {
+
+using core::ExitCode;
+
+std::string bound(const Outcome& outcome) { return fmt::format("energy error at most {:.4e} (guaranteed)", outcome.estimate->total); }
+
+/// "3 Newton steps and 20 Krylov iterations".
+std::string effort(const Position& at) {
+  return fmt::format("{} Newton step{} and {} Krylov iteration{}", at.newton_iterations, at.newton_iterations == 1 ? "" : "s",
+                     at.linear_iterations, at.linear_iterations == 1 ? "" : "s");
+}
+
+std::string solved(const RunParams& params, const Outcome& outcome) {
+  std::string sentence = "solved in " + effort(outcome.at);
+  if (!outcome.finest.settled) sentence += "; the contact set did not settle; ended by its residual";
+  if (outcome.energy_error) sentence += fmt::format("; energy error {:.4e}", *outcome.energy_error);
+  if (outcome.estimate) sentence += "; " + bound(outcome);
+  if (params.stopping.target) sentence += fmt::format(", as asked for by stopping/target = {:g}", *params.stopping.target);
+  else if (!outcome.refinement_ended.empty()) sentence += "; refinement ended by " + outcome.refinement_ended;
+  return sentence + fmt::format("; contact conditions hold to {:.1e}.", outcome.kkt->worst());
+}
+
+std::string target_missed(const RunParams& params, const Outcome& outcome) {
+  return fmt::format("target missed: {}, not {:g}; refinement ended by {}", bound(outcome), *params.stopping.target,
+                     outcome.refinement_ended);
+}
+
+}  // namespace
+
+Verdict judge(const RunParams& params, const Outcome& outcome) {
+  const auto missing = missed(params.expect, outcome, outcome.mesh->global_cells);
+  const std::string clauses = fmt::format("{}", fmt::join(missing, "; "));
+  if (outcome.not_wanted) {
+    if (!missing.empty()) return {ExitCode::target_missed, "not solved (max iterations = 0), and not as expected: " + clauses + "."};
+    return {ExitCode::done, "not solved: max iterations = 0 only counts the unknowns."};
+  }
+  if (!outcome.solved) return {ExitCode::not_converged, "not converged: " + outcome.finest.why};
+  if (params.stopping.rule != complementarity::StoppingRule::adaptive && !outcome.kkt->holds(outcome.kkt_tolerance))
+    return {ExitCode::not_converged, "not converged: Newton stopped. " + outcome.kkt->sentence(outcome.kkt_tolerance)};
+  if (params.stopping.target && !outcome.refinement_ended.empty())
+    return {ExitCode::target_missed,
+            target_missed(params, outcome) + (missing.empty() ? "" : "; besides, not as expected: " + clauses) + "."};
+  if (!missing.empty()) return {ExitCode::target_missed, "solved, but not as expected: " + clauses + "."};
+  return {ExitCode::done, solved(params, outcome)};
+}
+
+}  // namespace thixis::drive
