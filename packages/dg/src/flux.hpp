@@ -31,7 +31,7 @@ void add_face_fluxes(const mesh::Mesh& mesh, const Faces& faces, const Traces& t
                      LocalIndex count, const Tensions& mu, const ElementEntries& entries, const Kokkos::View<const double*>& u,
                      const FaceMoments& moments);
 
-/// sigma on the first `owned` cells (docs/methods/dg.md, 5): the normal fluxes of its faces, and
+/// sigma on the first `owned` cells (docs/methods/dg.md, 4): the normal fluxes of its faces, and
 ///
 ///     (sigma, v)_K = -(mu grad u, v)_K + theta sum_F w_F ([u], mu v·n)_F        for v in P_{p-1}(K)²,
 ///

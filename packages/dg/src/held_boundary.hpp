@@ -12,7 +12,7 @@ namespace thixis::dg {
 ///
 ///     e_Kl = (f - div sigma, psi_l)_K,
 ///
-/// is let out through the boundary (docs/methods/dg.md, 5). With Theta_l the functions dual to psi_l on a face F,
+/// is let out through the boundary (docs/methods/dg.md, 4). With Theta_l the functions dual to psi_l on a face F,
 ///
 ///     nodes inside a held face F:   sigma·n_F grows by e_Kl Theta_l;
 ///     held vertices a:              the faces F_0 … F_m around a, of which the first and the last lie on the boundary, carry x_i Theta_a
