@@ -75,7 +75,7 @@ class PolynomialSpace : public Space {
   /// Whether functions of the space are continuous.
   virtual bool conforming() const { return false; }
   /// Shares a residual R out to the cells: moments(k, l) = (r, psi_l)_K on patch cell k, so that the sum over the cells of each unknown is
-  /// R_l; an unknown that cells share gives each of them the same part. Collective.
+  /// R_l; an unknown that cells share gives each of them the same part, one on a face by its test function there. Collective.
   virtual void share(const algebra::Vector& R, const View<double**>& moments) const;
   /// q: the flux of the method lies in RT_q.
   virtual int flux_degree() const { return basis_.degree(); }
