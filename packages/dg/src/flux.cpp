@@ -18,6 +18,7 @@ struct FaceFluxes {
   Traces traces;
   Table legendre;  ///< (q, j)
   Penalty penalty;
+  bool held;  ///< [u] = 0
   LocalIndex first;
   Tensions mu;
   ElementEntries entries;
@@ -46,7 +47,7 @@ struct FaceFluxes {
           value += c * traces.value(faces.side(k, s), q, i);
           for (int a = 0; a < 3; ++a) derivative[a] += c * traces.derivative(faces.side(k, s), q, i, a);
         }
-        jump += s == 0 ? value : -value;
+        if (!held) jump += s == 0 ? value : -value;
         for (int a = 0; a < 3; ++a) mean += mu(e, q, s) * slope[s][a] * derivative[a];
       }
       const double mu_F = mu(e, q, 0) > mu(e, q, 1) ? mu(e, q, 0) : mu(e, q, 1);
@@ -153,7 +154,7 @@ FaceMoments face_moments(const mesh::Mesh& mesh, int degree) {
           Kokkos::View<double***, Kokkos::LayoutRight>("thixis::dg::face_slips", mesh.faces, 2, degree)};
 }
 
-void add_face_fluxes(const mesh::Mesh& mesh, const Faces& faces, const Traces& traces, const Penalty& penalty, LocalIndex first,
+void add_face_fluxes(const mesh::Mesh& mesh, const Faces& faces, const Traces& traces, const Penalty& penalty, bool held, LocalIndex first,
                      LocalIndex count, const Tensions& mu, const ElementEntries& entries, const Kokkos::View<const double*>& u,
                      const FaceMoments& moments) {
   const int points = traces.points(), width = moments.flux.extent_int(1);
@@ -166,7 +167,7 @@ void add_face_fluxes(const mesh::Mesh& mesh, const Faces& faces, const Traces& t
   Kokkos::parallel_for(
       "thixis::dg::face_fluxes", Kokkos::RangePolicy<>(0, count),
       FaceFluxes{mesh.coordinates, mesh.cell_vertices, mesh.face_vertices, faces, traces,
-                 method::matrix_view("thixis::dg::legendre", points, width, legendre), penalty, first, mu, entries, u, moments});
+                 method::matrix_view("thixis::dg::legendre", points, width, legendre), penalty, held, first, mu, entries, u, moments});
 }
 
 void native_flux(const mesh::Mesh& mesh, const FluxTables& tables, double theta, const method::FluxDensity& density,

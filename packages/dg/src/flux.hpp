@@ -26,12 +26,12 @@ FaceMoments face_moments(const mesh::Mesh& mesh, int degree);
 ///
 ///     sigma·n_F = - {mu grad u}·n + (eta p²/|F|) mu_F [u],
 ///
-/// without what Dirichlet data take off [u]. `entries`: (face, i) as in face_matrices.
-void add_face_fluxes(const mesh::Mesh& mesh, const Faces& faces, const Traces& traces, const Penalty& penalty, LocalIndex first,
+/// without what Dirichlet data take off [u]; `held`: where nodes are held, [u] = 0. `entries`: (face, i) as in face_matrices.
+void add_face_fluxes(const mesh::Mesh& mesh, const Faces& faces, const Traces& traces, const Penalty& penalty, bool held, LocalIndex first,
                      LocalIndex count, const Tensions& mu, const ElementEntries& entries, const Kokkos::View<const double*>& u,
                      const FaceMoments& moments);
 
-/// sigma on the first `owned` cells (docs/methods/dg.md, 5): the normal fluxes of its faces, and
+/// sigma on the first `owned` cells (docs/methods/dg.md, 4): the normal fluxes of its faces, and
 ///
 ///     (sigma, v)_K = -(mu grad u, v)_K + theta sum_F w_F ([u], mu v·n)_F        for v in P_{p-1}(K)²,
 ///

@@ -7,6 +7,7 @@
 
 #include "face_form.hpp"
 #include "flux.hpp"
+#include "held_boundary.hpp"
 #include "thixis/algebra/tpetra.hpp"
 #include "thixis/core/error.hpp"
 #include "thixis/method/gradient_form.hpp"
@@ -33,6 +34,16 @@ std::vector<LocalIndex> faces_with_form(const mesh::Mesh& mesh, const method::Sp
     const LocalIndex tag = host.face_tag(F);
     if (own && (tag < 0 || (options.dirichlet[tag] && !strong(options)))) faces.push_back(F);
   }
+  return faces;
+}
+
+/// Faces of owned cells whose nodes are held.
+std::vector<LocalIndex> faces_held(const mesh::Mesh& mesh, const method::SpaceOptions& options) {
+  const auto host = mesh::on_host(mesh);
+  std::vector<LocalIndex> faces;
+  for (LocalIndex F = 0; F < mesh.faces; ++F)
+    if (host.face_tag(F) >= 0 && options.dirichlet[host.face_tag(F)] && mesh::first_cell(host.face_cells, F) < mesh.owned_cells)
+      faces.push_back(F);
   return faces;
 }
 
@@ -93,8 +104,10 @@ class Space final : public method::PolynomialSpace {
   Space(const mesh::Mesh& mesh, const method::SpaceOptions& options)
       : PolynomialSpace(mesh, options, structure(mesh, options)),
         dirichlet_(options.dirichlet),
+        strong_(strong(options)),
         penalty_{params_.variant == method::Variant::sipg ? 1.0 : -1.0, params_.penalty * params_.degree * params_.degree} {
-    collect_faces(faces_with_form(mesh, options));
+    with_form_ = collected(faces_with_form(mesh, options));
+    if (strong_) held_ = collected(faces_held(mesh, options));
   }
 
   bool symmetric() const override { return params_.variant == method::Variant::sipg; }
@@ -105,24 +118,26 @@ class Space final : public method::PolynomialSpace {
 
   algebra::MatrixPtr stiffness(const scene::Field& tension) const override {
     auto S = PolynomialSpace::stiffness(tension);
-    over_faces(tension, [&](LocalIndex first, const Matrices& A) { method::scatter(columns_, first, A, *S); });
+    over_faces(tension, [&](LocalIndex first, const Matrices& A) { method::scatter(with_form_.columns, first, A, *S); });
     return S;
   }
 
   void forces(const scene::Field& tension, const Coefficients& u, Vector& y) const override {
     PolynomialSpace::forces(tension, u, y);
-    const Kokkos::View<double**, Kokkos::LayoutRight> local("thixis::dg::face_forces", faces_per_block(), 2 * basis_.size());
+    const Kokkos::View<double**, Kokkos::LayoutRight> local("thixis::dg::face_forces", faces_per_block(with_form_.faces),
+                                                            2 * basis_.size());
     over_faces(tension, [&](LocalIndex first, const Matrices& A) {
       const auto part = Kokkos::subview(local, std::pair(0, A.extent_int(0)), Kokkos::ALL);
-      Kokkos::parallel_for("thixis::dg::face_forces", Kokkos::RangePolicy<>(0, A.extent_int(0)), Apply{A, first, entries_, u, part});
-      method::scatter(columns_, first, part, y);
+      Kokkos::parallel_for("thixis::dg::face_forces", Kokkos::RangePolicy<>(0, A.extent_int(0)),
+                           Apply{A, first, with_form_.entries, u, part});
+      method::scatter(with_form_.columns, first, part, y);
     });
   }
 
   /// Dirichlet data g enter as - theta (mu grad(psi)·n, g)_F + (eta p²/|F|) (mu g, psi)_F.
   void load(const scene::Field& tension, const scene::Field& force, const BoundaryValues& boundary, double t, Vector& F) const override {
     PolynomialSpace::load(tension, force, boundary, t, F);
-    if (params_.boundary == method::BoundaryTreatment::strong) return;
+    if (strong_) return;
     mesh_.comm.together([&] {
       const auto out = algebra::host_view(F);
       for (std::size_t tag = 0; tag < boundary.dirichlet.size(); ++tag)
@@ -130,16 +145,18 @@ class Space final : public method::PolynomialSpace {
     });
   }
 
-  void native_flux(const scene::Field& tension, const Coefficients& u, const BoundaryValues& boundary, double t,
+  void native_flux(const scene::Field& tension, const scene::Field& force, const Coefficients& u, const BoundaryValues& boundary, double t,
                    const View<double**>& sigma) const override {
     if (!flux_tables_) flux_tables_ = flux_tables(basis_);
     const auto density = method::flux_density(mesh_, quadrature_, basis_.degree() - 1, tension);
     const FaceMoments moments = face_moments(mesh_, basis_.degree());
-    over_face_blocks(tension, [&](const Traces& at, LocalIndex first, LocalIndex count, const Tensions& mu) {
-      add_face_fluxes(mesh_, faces_, at, penalty_, first, count, mu, entries_, u, moments);
-    });
+    for (const FaceSet* set : {&with_form_, &held_})
+      over_face_blocks(tension, set->faces, [&](const Traces& at, LocalIndex first, LocalIndex count, const Tensions& mu) {
+        add_face_fluxes(mesh_, set->faces, at, penalty_, set == &held_, first, count, mu, set->entries, u, moments);
+      });
     mesh_.comm.together([&] { add_boundary_fluxes(tension, boundary, t, moments); });
     dg::native_flux(mesh_, *flux_tables_, penalty_.theta, density, structure_.element_entries, u, moments, mesh_.owned_cells, sigma);
+    if (strong_) held_boundary().balance(force, t, sigma);
   }
 
  private:
@@ -159,16 +176,21 @@ class Space final : public method::PolynomialSpace {
     }
   };
 
-  void collect_faces(const std::vector<LocalIndex>& list) {
+  /// Faces and, for each, the entries and columns of both cells.
+  struct FaceSet {
+    Faces faces;
+    Indices entries, columns;  ///< (face, 2n)
+  };
+
+  FaceSet collected(const std::vector<LocalIndex>& list) const {
     const int n = basis_.size();
     const std::size_t count = list.size();
     View<LocalIndex*> face("thixis::dg::faces", count);
     View<LocalIndex*[2]> cell("thixis::dg::face_cells", count), side("thixis::dg::face_sides", count);
-    entries_ = Indices("thixis::dg::face_entries", count, 2 * n);
-    columns_ = Indices("thixis::dg::face_columns", count, 2 * n);
+    const Indices entries("thixis::dg::face_entries", count, 2 * n), columns("thixis::dg::face_columns", count, 2 * n);
     const auto face_host = Kokkos::create_mirror_view(face);
     const auto cell_host = Kokkos::create_mirror_view(cell), side_host = Kokkos::create_mirror_view(side);
-    const auto entries_host = Kokkos::create_mirror_view(entries_), columns_host = Kokkos::create_mirror_view(columns_);
+    const auto entries_host = Kokkos::create_mirror_view(entries), columns_host = Kokkos::create_mirror_view(columns);
     const auto of_cell = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), structure_.element_entries);
     const auto column = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), numbering_.column_of_entry);
     for (std::size_t k = 0; k < count; ++k) {
@@ -186,9 +208,9 @@ class Space final : public method::PolynomialSpace {
     Kokkos::deep_copy(face, face_host);
     Kokkos::deep_copy(cell, cell_host);
     Kokkos::deep_copy(side, side_host);
-    Kokkos::deep_copy(entries_, entries_host);
-    Kokkos::deep_copy(columns_, columns_host);
-    faces_ = {face, cell, side};
+    Kokkos::deep_copy(entries, entries_host);
+    Kokkos::deep_copy(columns, columns_host);
+    return {{face, cell, side}, entries, columns};
   }
 
   int side_of(LocalIndex K, LocalIndex F) const {
@@ -196,19 +218,21 @@ class Space final : public method::PolynomialSpace {
     return 2 * f + (host_.face_vertices(F, 0) == host_.cell_vertices(K, (f + 1) % 3) ? 0 : 1);
   }
 
-  LocalIndex faces_per_block() const { return std::min(method::cells_per_block(2 * basis_.size()), faces_.face.extent_int(0)); }
+  LocalIndex faces_per_block(const Faces& faces) const {
+    return std::min(method::cells_per_block(2 * basis_.size()), faces.face.extent_int(0));
+  }
 
   /// f(traces, first, count, mu) for blocks of faces. Collective, since the tension may be refused.
   template <class Action>
-  void over_face_blocks(const scene::Field& tension, Action f) const {
+  void over_face_blocks(const scene::Field& tension, const Faces& faces, Action f) const {
     const Traces at = traces(basis_, tension.constant() ? 2 * basis_.degree() : params_.order());
-    const LocalIndex count = faces_.face.extent_int(0), most = faces_per_block();
+    const LocalIndex count = faces.face.extent_int(0), most = faces_per_block(faces);
     const Tensions mu("thixis::dg::face_tension", most, at.points());
     if (const double* value = tension.constant()) Kokkos::deep_copy(mu, *value);
     mesh_.comm.together([&] {
       for (LocalIndex first = 0; first < count; first += most) {
         const LocalIndex length = std::min(most, count - first);
-        if (!tension.constant()) evaluate_traces(tension, at, first, length, mu);
+        if (!tension.constant()) evaluate_traces(tension, faces, at, first, length, mu);
         f(at, first, length, mu);
       }
     });
@@ -218,18 +242,19 @@ class Space final : public method::PolynomialSpace {
   template <class Action>
   void over_faces(const scene::Field& tension, Action f) const {
     const int n = basis_.size();
-    const Matrices A("thixis::dg::face_matrices", faces_per_block(), 2 * n, 2 * n);
-    over_face_blocks(tension, [&](const Traces& at, LocalIndex first, LocalIndex count, const Tensions& mu) {
+    const Matrices A("thixis::dg::face_matrices", faces_per_block(with_form_.faces), 2 * n, 2 * n);
+    over_face_blocks(tension, with_form_.faces, [&](const Traces& at, LocalIndex first, LocalIndex count, const Tensions& mu) {
       const Matrices block = Kokkos::subview(A, std::pair(0, count), Kokkos::ALL, Kokkos::ALL);
-      face_matrices(mesh_, faces_, at, penalty_, first, mu, block);
+      face_matrices(mesh_, with_form_.faces, at, penalty_, first, mu, block);
       f(first, block);
     });
   }
 
   /// mu(e, q, s): trace from K+ and K- on the faces first + e.
-  void evaluate_traces(const scene::Field& tension, const Traces& at, LocalIndex first, LocalIndex length, const Tensions& mu) const {
-    const auto face = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), faces_.face);
-    const auto cell = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), faces_.cell);
+  void evaluate_traces(const scene::Field& tension, const Faces& faces, const Traces& at, LocalIndex first, LocalIndex length,
+                       const Tensions& mu) const {
+    const auto face = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), faces.face);
+    const auto cell = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), faces.cell);
     const auto host = Kokkos::create_mirror_view(mu);
     const int points = at.points();
     std::vector<double> x(length * points), y(x.size()), values(x.size());
@@ -323,7 +348,7 @@ class Space final : public method::PolynomialSpace {
     const auto slip = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), moments.slip);
     const int p = basis_.degree(), points = at.points();
     for (std::size_t tag = 0; tag < dirichlet_.size(); ++tag) {
-      if (dirichlet_[tag] && params_.boundary == method::BoundaryTreatment::strong) continue;
+      if (dirichlet_[tag] && strong_) continue;
       const auto& data = dirichlet_[tag] ? boundary.dirichlet[tag] : boundary.neumann[tag];
       if (!data) continue;
       const BoundaryPoints on = boundary_points(static_cast<LocalIndex>(tag), at);
@@ -347,11 +372,17 @@ class Space final : public method::PolynomialSpace {
     Kokkos::deep_copy(moments.slip, slip);
   }
 
+  const HeldBoundary& held_boundary() const {
+    if (!held_boundary_) held_boundary_.emplace(*this, dirichlet_);
+    return *held_boundary_;
+  }
+
   std::vector<bool> dirichlet_;  ///< by tag
+  bool strong_;
   Penalty penalty_;
-  Faces faces_;
-  Indices entries_, columns_;                      ///< (face with a form, 2n)
-  mutable std::optional<FluxTables> flux_tables_;  ///< made when a flux is first asked for
+  FaceSet with_form_, held_;
+  mutable std::optional<FluxTables> flux_tables_;  ///< these two are made when a flux is first asked for
+  mutable std::optional<HeldBoundary> held_boundary_;
 };
 
 }  // namespace

@@ -26,7 +26,7 @@ struct FaceData {
   Moments traction;                       ///< (row, j): ∫_F t L_j / |F|, L_j from the lower to the higher vertex id
 };
 
-/// The flux of HHO on the first `owned` cells (docs/methods/hho.md, 6). Phi_KF of both cells of a face is averaged:
+/// The flux of HHO on the first `owned` cells (docs/methods/hho.md, 5). Phi_KF of both cells of a face is averaged:
 ///
 ///     Phi_KF = -P·n_K + kappa mu_K/h (Π_F u_K - u_F),     P = Π_{P_{p-1}(K)²} mu G_K u,
 ///     sigma·n_K = (Phi_KF - Phi_K'F)/2 inside, Phi_KF with Dirichlet data, -Π_F t with a traction;   (sigma, v)_K = -(P, v)_K, v in

@@ -451,7 +451,8 @@ void PolynomialSpace::share(const Vector& R, const View<double**>& moments) cons
   gather(structure_.element_entries, functions(), complete(part, nothing), moments);
 }
 
-void PolynomialSpace::native_flux(const scene::Field&, const Coefficients&, const BoundaryValues&, double, const View<double**>&) const {
+void PolynomialSpace::native_flux(const scene::Field&, const scene::Field&, const Coefficients&, const BoundaryValues&, double,
+                                  const View<double**>&) const {
   throw core::Error(core::ExitCode::internal, "This method has no flux of its own.");
 }
 

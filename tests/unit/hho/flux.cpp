@@ -50,6 +50,24 @@ TEST_P(HybridFlux, balances_the_forces_of_every_cell_whatever_the_field_is) {
       }
 }
 
+/// The moments against 1 of all cells together are those of the residual: no force is lost or counted twice.
+TEST_P(HybridFlux, shares_out_the_residuals_of_faces) {
+  const auto dirichlet = method::held_tags(mesh, Held::alternating);
+  const auto s = spaces(mesh, deck, dirichlet, Tension::constant);
+  const auto R = method::arbitrary(s.V, 3);
+  const method::View<double**> r("r", s.V.cells().extent(0), s.V.basis().size());
+  s.V.share(R, r);
+  double shared = 0, of_R = 0;
+  for (LocalIndex K = 0; K < mesh.owned_cells; ++K)
+    for (int l = 0; l < s.V.basis().size(); ++l) shared += r(K, l);
+  const auto values = algebra::host_view(R);
+  const auto ids = s.V.unknown_ids();
+  const GlobalIndex of_cells = s.V.coefficients().global_cell_entries;
+  for (std::size_t row = 0; row < ids.size(); ++row)
+    if (ids[row] < of_cells || (ids[row] - of_cells) % GetParam().degree == 0) of_R += values(row);
+  EXPECT_NEAR(mesh.comm.sum(shared), mesh.comm.sum(of_R), 1e-9);
+}
+
 TEST_P(HybridFlux, is_exact_for_polynomials_of_degree_p) {
   const Polynomial u{GetParam().degree};
   const auto dirichlet = method::held_tags(mesh, Held::all);

@@ -75,7 +75,7 @@ class PolynomialSpace : public Space {
   /// Whether functions of the space are continuous.
   virtual bool conforming() const { return false; }
   /// Shares a residual R out to the cells: moments(k, l) = (r, psi_l)_K on patch cell k, so that the sum over the cells of each unknown is
-  /// R_l; an unknown that cells share gives each of them the same part. Collective.
+  /// R_l; an unknown that cells share gives each of them the same part, one on a face by its test function there. Collective.
   virtual void share(const algebra::Vector& R, const View<double**>& moments) const;
   /// q: the flux of the method lies in RT_q.
   virtual int flux_degree() const { return basis_.degree(); }
@@ -84,9 +84,10 @@ class PolynomialSpace : public Space {
   ///
   ///     (div sigma, v)_K = (f - (-1)^alpha lambda_h - r, v)_K      for all v in P_q(K),
   ///
-  /// whatever u is. `boundary`: the data that u_h belongs to. For spaces that are not conforming. Collective.
-  virtual void native_flux(const scene::Field& tension, const Coefficients& u, const BoundaryValues& boundary, double t,
-                           const View<double**>& sigma) const;
+  /// whatever u is; r and lambda_h have no moments against functions that are held. sigma·n = -Π_q t on the Neumann boundary. `force` and
+  /// `boundary`: the data that u_h belongs to. For spaces that are not conforming. Collective.
+  virtual void native_flux(const scene::Field& tension, const scene::Field& force, const Coefficients& u, const BoundaryValues& boundary,
+                           double t, const View<double**>& sigma) const;
 
   output::Grid display() const final;
   std::vector<double> shown(const Coefficients& u) const final;
