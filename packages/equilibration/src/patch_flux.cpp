@@ -12,7 +12,7 @@ struct PatchFlux::Impl {
   virtual void evaluate(const Data& data, const CellTable& sigma) const = 0;
   virtual std::size_t bytes() const = 0;
   static std::unique_ptr<Impl> make(const mesh::Mesh& mesh, const View<const LocalIndex*>& cells, const std::vector<bool>& held, int q);
-  template <int q>
+  template <int Q>
   struct OfDegree;
 };
 
@@ -31,12 +31,12 @@ std::size_t bytes_of(const Views&... views) {
 }  // namespace
 
 /// The sizes of all loops over functions are known to the compiler.
-template <int q>
+template <int Q>
 struct PatchFlux::Impl::OfDegree final : Impl {
-  using T = PatchTables<q>;
+  using T = PatchTables<Q>;
 
   OfDegree(const mesh::Mesh& mesh, const View<const LocalIndex*>& cells, const std::vector<bool>& held)
-      : owned_cells(mesh.owned_cells), patches(make_patches(mesh, cells, held, q)) {
+      : owned_cells(mesh.owned_cells), patches(make_patches(mesh, cells, held, Q)) {
     using Kokkos::view_alloc;
     using Kokkos::WithoutInitializing;
     form.tables = T::make();
@@ -44,20 +44,20 @@ struct PatchFlux::Impl::OfDegree final : Impl {
     form.inverse = Bubbles(view_alloc(WithoutInitializing, "thixis::equilibration::bubbles"), cells.extent(0), T::bubbles * T::bubbles);
     factor = View<double*>(view_alloc(WithoutInitializing, "thixis::equilibration::factor"), patches.factors);
     unknowns = View<double*>(view_alloc(WithoutInitializing, "thixis::equilibration::unknowns"), patches.unknowns);
-    moments = Moments(view_alloc(WithoutInitializing, "thixis::equilibration::moments"), patches.spokes, q + 1);
+    moments = Moments(view_alloc(WithoutInitializing, "thixis::equilibration::moments"), patches.spokes, Q + 1);
     residual = CellTable(view_alloc(WithoutInitializing, "thixis::equilibration::residual"), cells.extent(0), 3 * T::tests);
-    if (T::bubbles > 0) launch("thixis::equilibration::invert_bubbles", cells.extent_int(0), InvertBubbles<q>{form});
-    launch("thixis::equilibration::factor_patch", patches.patch.extent_int(0), FactorPatch<q>{patches, form, factor});
+    if (T::bubbles > 0) launch("thixis::equilibration::invert_bubbles", cells.extent_int(0), InvertBubbles<Q>{form});
+    launch("thixis::equilibration::factor_patch", patches.patch.extent_int(0), FactorPatch<Q>{patches, form, factor});
   }
 
   void evaluate(const PatchFlux::Data& data, const CellTable& sigma) const override {
     const LocalIndex count = patches.patch.extent_int(0), cells = residual.extent_int(0);
     launch("thixis::equilibration::given_flux", patches.given_spokes.extent_int(0),
-           GivenFlux<q>{patches.given_spokes, data.traction, moments});
-    launch("thixis::equilibration::sweep", count, Sweep<q>{patches, data.density, moments});
-    launch("thixis::equilibration::residual", cells, Residual<q>{form, patches, data, moments, residual});
-    launch("thixis::equilibration::solve_patch", count, SolvePatch<q>{patches, factor, residual, unknowns, moments});
-    launch("thixis::equilibration::assemble", owned_cells, Assemble<q>{form, patches, data, moments, sigma});
+           GivenFlux<Q>{patches.given_spokes, data.traction, moments});
+    launch("thixis::equilibration::sweep", count, Sweep<Q>{patches, data.density, moments});
+    launch("thixis::equilibration::residual", cells, Residual<Q>{form, patches, data, moments, residual});
+    launch("thixis::equilibration::solve_patch", count, SolvePatch<Q>{patches, factor, residual, unknowns, moments});
+    launch("thixis::equilibration::assemble", owned_cells, Assemble<Q>{form, patches, data, moments, sigma});
   }
 
   std::size_t bytes() const override {
@@ -67,7 +67,7 @@ struct PatchFlux::Impl::OfDegree final : Impl {
 
   LocalIndex owned_cells;
   Patches patches;
-  CellForm<q> form;
+  CellForm<Q> form;
   View<double*> factor, unknowns;
   Moments moments;
   CellTable residual;

@@ -12,9 +12,9 @@ using Moments = View<double**>;  ///< (spoke, j)
 using Bubbles = Kokkos::View<double**, Kokkos::LayoutRight>;
 
 /// What a cell does with short fields: scalar products in its metric, and the bubbles that a field of least norm has.
-template <int q>
+template <int Q>
 struct CellForm {
-  using T = PatchTables<q>;
+  using T = PatchTables<Q>;
   T tables;
   Metrics metric;
   Bubbles inverse;  ///< of (bubble, bubble)_K: (cell, m n + l)
@@ -55,10 +55,10 @@ struct CellForm {
 };
 
 /// Inverse matrices of the bubbles of each cell.
-template <int q>
+template <int Q>
 struct InvertBubbles {
-  using T = PatchTables<q>;
-  CellForm<q> form;  ///< its inverse is overwritten
+  using T = PatchTables<Q>;
+  CellForm<Q> form;  ///< its inverse is overwritten
 
   KOKKOS_FUNCTION void operator()(int k) const {
     constexpr int n = T::bubbles;
@@ -83,36 +83,36 @@ struct InvertBubbles {
 };
 
 /// Number of the unknown of patch P that belongs to test field t of its cell m, -1 if its flux is given.
-template <int q>
+template <int Q>
 KOKKOS_INLINE_FUNCTION int unknown(const Patch& P, int m, int t) {
-  if (t == 2 * q) return P.free == P.spokes ? q * P.free : -1;
-  const int spoke = t < q ? m : (m + 1) % P.spokes, place = spoke - P.first_free;
-  return place < 0 || place >= P.free ? -1 : place * q + (t < q ? t : t - q);
+  if (t == 2 * Q) return P.free == P.spokes ? Q * P.free : -1;
+  const int spoke = t < Q ? m : (m + 1) % P.spokes, place = spoke - P.first_free;
+  return place < 0 || place >= P.free ? -1 : place * Q + (t < Q ? t : t - Q);
 }
 
 /// The matrix of a patch, bubbles eliminated, factored.
-template <int q>
+template <int Q>
 struct FactorPatch {
-  using T = PatchTables<q>;
+  using T = PatchTables<Q>;
   Patches patches;
-  CellForm<q> form;
+  CellForm<Q> form;
   View<double*> factor;  ///< out, overwritten
 
   KOKKOS_FUNCTION void operator()(int p) const {
     const Patch P = patches.patch(p);
-    const int n = P.size(q);
+    const int n = P.size(Q);
     double* const A = factor.data() + P.factor;
     for (int e = 0; e < row_of(n); ++e) A[e] = 0;
     for (int m = 0; m < P.cells; ++m) {
       const int corner = patches.corner(P.corner + m), k = corner / 3, i = corner % 3;
       for (int t = 0; t < T::tests; ++t) {
-        const int column = unknown<q>(P, m, t);
+        const int column = unknown<Q>(P, m, t);
         if (column < 0) continue;
         double v[T::length], r[T::tests];
         for (int l = 0; l < T::length; ++l) v[l] = form.tables.test(i, l, t);
         form.test(k, i, v, r);
         for (int s = 0; s < T::tests; ++s) {
-          const int row = unknown<q>(P, m, s);
+          const int row = unknown<Q>(P, m, s);
           if (row >= column) A[row_of(row) + column] += r[s];
         }
       }
@@ -122,7 +122,7 @@ struct FactorPatch {
 };
 
 /// Moments of spokes with a given flux.
-template <int q>
+template <int Q>
 struct GivenFlux {
   View<GivenSpoke*> given;
   ConstCellTable traction;
@@ -130,15 +130,15 @@ struct GivenFlux {
 
   KOKKOS_FUNCTION void operator()(int g) const {
     const GivenSpoke s = given(g);
-    for (int j = 0; j <= q; ++j) {
+    for (int j = 0; j <= Q; ++j) {
       const double sign = s.end == 1 && j % 2 == 1 ? -s.out : s.out;
-      moments(s.spoke, j) = traction.extent(0) > 0 ? sign * traction(s.face, s.end * (q + 1) + j) : 0;
+      moments(s.spoke, j) = traction.extent(0) > 0 ? sign * traction(s.face, s.end * (Q + 1) + j) : 0;
     }
   }
 };
 
 /// A flux through the spokes that balances the densities: L_0 only, summed up around the vertex from a given flux or from 0.
-template <int q>
+template <int Q>
 struct Sweep {
   Patches patches;
   ConstCellTable density;
@@ -160,15 +160,15 @@ struct Sweep {
   /// The integral over the cell: that of phi_0 is 1/√2.
   KOKKOS_INLINE_FUNCTION double total(LocalIndex at) const {
     const int corner = patches.corner(at);
-    return 0.70710678118654752440 * density(corner / 3, (corner % 3) * reference::dimension(q));
+    return 0.70710678118654752440 * density(corner / 3, (corner % 3) * reference::dimension(Q));
   }
 };
 
 /// r(k, i tests + t) = -(v - psi_a w, test_t)_K, v the particular flux of corner i, bubbles eliminated.
-template <int q>
+template <int Q>
 struct Residual {
-  using T = PatchTables<q>;
-  CellForm<q> form;
+  using T = PatchTables<Q>;
+  CellForm<Q> form;
   Patches patches;
   PatchFlux::Data data;
   Moments moments;
@@ -198,7 +198,7 @@ struct Residual {
     }
   }
   KOKKOS_INLINE_FUNCTION void add_spoke(LocalIndex s, int face, bool after, double* v) const {
-    const int count = patches.given(s) ? q + 1 : 1;
+    const int count = patches.given(s) ? Q + 1 : 1;
     for (int j = 0; j < count; ++j) {
       const double moment = after ? (j % 2 == 0 ? 1 : -1) * moments(s, j) : -moments(s, j);
       for (int l = 0; l < T::length; ++l) v[l] += moment * form.tables.face(face, j, l);
@@ -207,9 +207,9 @@ struct Residual {
 };
 
 /// Solves on each patch; the moments of its spokes are complete then.
-template <int q>
+template <int Q>
 struct SolvePatch {
-  using T = PatchTables<q>;
+  using T = PatchTables<Q>;
   Patches patches;
   View<double*> factor;
   CellTable residual;
@@ -218,30 +218,30 @@ struct SolvePatch {
 
   KOKKOS_FUNCTION void operator()(int p) const {
     const Patch P = patches.patch(p);
-    const int n = P.size(q);
+    const int n = P.size(Q);
     double* const x = unknowns.data() + P.unknowns;
     for (int e = 0; e < n; ++e) x[e] = 0;
     for (int m = 0; m < P.cells; ++m) {
       const int corner = patches.corner(P.corner + m);
       const double* const r = &residual(corner / 3, (corner % 3) * T::tests);
       for (int t = 0; t < T::tests; ++t) {
-        const int row = unknown<q>(P, m, t);
+        const int row = unknown<Q>(P, m, t);
         if (row >= 0) x[row] += r[t];
       }
     }
     solve_packed(n, factor.data() + P.factor, x);
     for (int s = 0; s < P.free; ++s)
-      for (int j = 0; j < q; ++j) moments(P.spoke + P.first_free + s, j + 1) = x[s * q + j];
-    if (n > q * P.free)
+      for (int j = 0; j < Q; ++j) moments(P.spoke + P.first_free + s, j + 1) = x[s * Q + j];
+    if (n > Q * P.free)
       for (int s = 0; s < P.spokes; ++s) moments(P.spoke + s, 0) += x[n - 1];
   }
 };
 
 /// The sum of the fluxes of the three vertices, with the bubbles that make the norm of sum_a sigma_a - w = sum_a (sigma_a - psi_a w) least.
-template <int q>
+template <int Q>
 struct Assemble {
-  using T = PatchTables<q>;
-  CellForm<q> form;
+  using T = PatchTables<Q>;
+  CellForm<Q> form;
   Patches patches;
   PatchFlux::Data data;
   Moments moments;
@@ -251,10 +251,10 @@ struct Assemble {
     double c[T::given], v[T::flux] = {};
     for (int f = 0; f < 3; ++f) {
       const LocalIndex from_first = patches.spoke(k, (f + 1) % 3, 0), from_second = patches.spoke(k, (f + 2) % 3, 1);
-      for (int j = 0; j <= q; ++j) c[f * (q + 1) + j] = (j % 2 == 0 ? 1 : -1) * moments(from_second, j) - moments(from_first, j);
+      for (int j = 0; j <= Q; ++j) c[f * (Q + 1) + j] = (j % 2 == 0 ? 1 : -1) * moments(from_second, j) - moments(from_first, j);
     }
     for (int m = 1; m < T::density; ++m)
-      c[3 * (q + 1) + m - 1] = data.density(k, m) + data.density(k, T::density + m) + data.density(k, 2 * T::density + m);
+      c[3 * (Q + 1) + m - 1] = data.density(k, m) + data.density(k, T::density + m) + data.density(k, 2 * T::density + m);
     for (int e = 0; e < T::given; ++e)
       for (int l = 0; l < T::flux; ++l) v[l] += c[e] * form.tables.field(e, l);
     if constexpr (T::bubbles > 0) {

@@ -5,18 +5,18 @@ namespace thixis::equilibration {
 
 /// Reference fields of RT_q (reference::RaviartThomas) as the kernels read them. Fields are tested with divergence-free fields of RT_q
 /// only, which are polynomials of degree q: it is enough to keep the first dim P_q modes of both components, a **short** field.
-template <int q>
+template <int Q>
 struct PatchTables {
-  static constexpr int density = reference::dimension(q);           ///< dim P_q
+  static constexpr int density = reference::dimension(Q);           ///< dim P_q
   static constexpr int length = 2 * density;                        ///< of a short field
-  static constexpr int flux = 2 * reference::dimension(q + 1);      ///< of a field
-  static constexpr int bubbles = q < 2 ? 0 : q * (q - 1) / 2;       ///< dim P_{q-2}
+  static constexpr int flux = 2 * reference::dimension(Q + 1);      ///< of a field
+  static constexpr int bubbles = Q < 2 ? 0 : Q * (Q - 1) / 2;       ///< dim P_{q-2}
   static constexpr int stored_bubbles = bubbles > 0 ? bubbles : 1;  ///< Views have no empty fixed extents
-  static constexpr int tests = 2 * q + 1;                           ///< see `test`
-  static constexpr int given = 3 * (q + 1) + density - 1;           ///< face moments and densities
+  static constexpr int tests = 2 * Q + 1;                           ///< see `test`
+  static constexpr int given = 3 * (Q + 1) + density - 1;           ///< face moments and densities
   static constexpr int fields = given + bubbles;                    ///< dim RT_q
 
-  View<double[3][q + 1][length]> face;         ///< from_face(f, j), short
+  View<double[3][Q + 1][length]> face;         ///< from_face(f, j), short
   View<double[density][length]> from_density;  ///< short; 0 for the first
   View<double[3][density][density]> hat;       ///< u -> projection of lambda_i u on P_q; symmetric
   View<double[stored_bubbles][length]> bubble;
