@@ -14,6 +14,7 @@ namespace thixis::equilibration {
 namespace {
 
 constexpr int degree_of_v = 4;
+constexpr int rows = 3;                                  ///< of cells; each step inwards costs and gains less
 constexpr int order = 2 * BoundaryLift::resolution + 4;  ///< exact for |grad l|²
 
 View<const LocalIndex*> to_view(const char* label, const std::vector<LocalIndex>& values) {
@@ -105,8 +106,7 @@ void BoundaryLift::find_faces(const ContinuousNodes& nodes, const std::array<met
           size = std::max(size, std::abs(g[q]));
           difference[q] += alpha == 0 ? delta : -delta;
           const double s = rule.point[q], quotient = delta / (s * (1 - s));
-          for (int j = 0; j <= resolution; ++j)
-            blend.q[alpha][j] += rule.weight[q] * quotient * legendre[q * (resolution + 1) + j];
+          for (int j = 0; j <= resolution; ++j) blend.q[alpha][j] += rule.weight[q] * quotient * legendre[q * (resolution + 1) + j];
         }
       }
       for (const double d : difference) blend.difference = std::max(blend.difference, std::abs(d));
@@ -115,7 +115,7 @@ void BoundaryLift::find_faces(const ContinuousNodes& nodes, const std::array<met
   empty_ = largest <= 1e-13 * size;
 }
 
-/// The cells of this rank's rows that touch the held boundary: owners know it of their cells.
+/// Row by row: the cells that touch the held boundary, those that touch them, … The owner of a cell knows all cells around it.
 void BoundaryLift::find_layer() {
   const mesh::Mesh& mesh = space_.mesh();
   const auto held = method::held_vertices(mesh, dirichlet_);
@@ -124,16 +124,24 @@ void BoundaryLift::find_layer() {
   for (std::size_t k = 0; k < cells.extent(0); ++k) ids.push_back(mesh.cell_id[cells(k)]);
   const auto own = algebra::map_of({ids.begin(), ids.begin() + mesh.owned_cells}, mesh.comm);
   const auto all = algebra::map_of(ids, mesh.comm);
+  const algebra::Import import(own, all);
   algebra::Vector touches(own), touches_all(all);
-  {
-    const auto out = algebra::host_overwrite(touches);
-    for (LocalIndex K = 0; K < mesh.owned_cells; ++K) {
-      out(K) = 0;
-      for (int i = 0; i < 3; ++i)
-        if (held[host_.cell_vertices(K, i)] >= 0) out(K) = 1;
+  std::vector<bool> reached(mesh.vertices);
+  for (LocalIndex v = 0; v < mesh.vertices; ++v) reached[v] = held[v] >= 0;
+  for (int row = 0; row < rows; ++row) {
+    {
+      const auto out = algebra::host_overwrite(touches);
+      for (LocalIndex K = 0; K < mesh.owned_cells; ++K) {
+        out(K) = 0;
+        for (int i = 0; i < 3; ++i)
+          if (reached[host_.cell_vertices(K, i)]) out(K) = 1;
+      }
     }
+    touches_all.doImport(touches, import, Tpetra::INSERT);
+    const auto in = algebra::host_view(std::as_const(touches_all));
+    for (std::size_t k = 0; k < cells.extent(0); ++k)
+      for (int i = 0; i < 3 && in(k) != 0; ++i) reached[host_.cell_vertices(cells(k), i)] = true;
   }
-  touches_all.doImport(touches, algebra::Import(own, all), Tpetra::INSERT);
   const auto in = algebra::host_view(std::as_const(touches_all));
   std::vector<LocalIndex> layer, owned;
   std::vector<std::vector<Blend>> blends;

@@ -3,11 +3,11 @@
 
 namespace thixis::equilibration {
 
-/// D of two membranes: in the layer of the lift, at the points of a rule for the products of polynomials of degree 8.
+/// D of two membranes: in the layer of the lift, at the points of a composite rule.
 Deviation deviation_of_membranes(const method::PolynomialSpace& space, const BoundaryLift& lift);
 
-/// D over an obstacle, at the points of the space's quadrature, which knows where psi has its kinks. Nothing where psi is its interpolant to
-/// round-off. The gradient of psi is taken by differences. `psi`: coefficients of the interpolant.
+/// D over an obstacle, at the points of the space's quadrature, which knows where psi has its kinks. Nothing where psi is its interpolant
+/// to round-off. The gradient of psi is taken by differences. `psi`: coefficients of the interpolant.
 Deviation deviation_of_obstacle(const method::PolynomialSpace& space, const BoundaryLift& lift, const ContinuousNodes& nodes,
                                 const scene::FieldPtr& obstacle, const std::vector<double>& psi);
 

@@ -150,8 +150,8 @@ struct FeasiblePair::Impl {
     }
     lift = std::make_unique<BoundaryLift>(space, nodes, problem.tension, problem.boundary, held, problem.count);
     kernel.lift = lift->of_cells();
-    kernel.deviation = problem.count == 2 ? deviation_of_membranes(space, *lift)
-                                          : deviation_of_obstacle(space, *lift, nodes, problem.obstacle, held[1]);
+    kernel.deviation =
+        problem.count == 2 ? deviation_of_membranes(space, *lift) : deviation_of_obstacle(space, *lift, nodes, problem.obstacle, held[1]);
     for (int alpha = 0; alpha < 2; ++alpha) data[alpha] = to_view("thixis::equilibration::held", held[alpha]);
   }
 
