@@ -282,20 +282,26 @@ void BoundaryLift::minimise(const std::array<scene::FieldPtr, 2>& tension) {
 void BoundaryLift::integrate(const std::array<scene::FieldPtr, 2>& tension) {
   const mesh::Mesh& mesh = space_.mesh();
   const reference::Bernstein& B = space_.basis().bernstein();
-  const method::CellQuadrature quadrature = method::make_quadrature(mesh, owned_, order, nullptr);
+  const method::CellQuadrature of_blends = method::make_quadrature(mesh, owned_, order, nullptr),
+                               of_v = method::make_quadrature(mesh, owned_, 2 * degree_of_v, nullptr);
   const View<LocalIndex*> place("thixis::equilibration::place_in_layer", mesh.owned_cells);
   Kokkos::deep_copy(place, -1);
   const View<double* [2]> energy("thixis::equilibration::lift_energy", owned_.extent(0));
   const Kokkos::View<double***, Kokkos::LayoutRight> products("thixis::equilibration::lift_products", owned_.extent(0), 2, B.size);
   double sum = 0;
   for (int alpha = 0; alpha < count_; ++alpha) {
-    View<double*> mu;
+    View<double*> mu_of_blends, mu_of_v;
     const double* const constant = tension[alpha]->constant();
-    if (!constant) mu = method::tension_at_points(mesh, quadrature, *tension[alpha]);
+    if (!constant) {
+      mu_of_blends = method::tension_at_points(mesh, of_blends, *tension[alpha]);
+      mu_of_v = method::tension_at_points(mesh, of_v, *tension[alpha]);
+    }
     for (std::size_t k = 0; k < owned_.extent(0); ++k) {
       place(owned_(k)) = static_cast<LocalIndex>(k);
       const auto K = mesh::cell_geometry(host_.coordinates, host_.cell_vertices, owned_(k));
-      const PointsOf points(quadrature, static_cast<LocalIndex>(k));
+      const bool blended_here = !blends_[k].empty();
+      const PointsOf points(blended_here ? of_blends : of_v, static_cast<LocalIndex>(k));
+      const auto& mu = blended_here ? mu_of_blends : mu_of_v;
       for (int q = 0; q < points.count; ++q) {
         const double xi = points.xi(q, 0), eta = points.xi(q, 1), lambda[3] = {1 - xi - eta, xi, eta};
         const double weight = 2 * K.area * points.weight(q) * (constant ? *constant : mu(points.first + q));

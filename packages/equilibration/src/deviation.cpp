@@ -68,7 +68,7 @@ Deviation deviation_of_membranes(const method::PolynomialSpace& space, const Bou
   const auto& cells = lift.cells();
   const auto place = nowhere(mesh);
   Deviation deviation;
-  deviation.quadrature = composite(method::make_quadrature(mesh, cells, 6, nullptr), 5);
+  deviation.quadrature = composite(method::make_quadrature(mesh, cells, 6, nullptr), 4);
   const View<double*> bound("thixis::equilibration::deviation_bound", cells.extent(0));
   const View<double* [3]> D("thixis::equilibration::deviation", deviation.quadrature.points());
   for (LocalIndex k = 0; k < cells.extent_int(0); ++k) {
