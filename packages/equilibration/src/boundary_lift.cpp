@@ -14,6 +14,7 @@ namespace thixis::equilibration {
 namespace {
 
 constexpr int degree_of_v = 4;
+constexpr int rows = 3;                                  ///< of cells; each step inwards costs and gains less
 constexpr int order = 2 * BoundaryLift::resolution + 4;  ///< exact for |grad l|²
 
 View<const LocalIndex*> to_view(const char* label, const std::vector<LocalIndex>& values) {
@@ -114,7 +115,7 @@ void BoundaryLift::find_faces(const ContinuousNodes& nodes, const std::array<met
   empty_ = largest <= 1e-13 * size;
 }
 
-/// The cells of this rank's rows that touch the held boundary: owners know it of their cells.
+/// Row by row: the cells that touch the held boundary, those that touch them, … The owner of a cell knows all cells around it.
 void BoundaryLift::find_layer() {
   const mesh::Mesh& mesh = space_.mesh();
   const auto held = method::held_vertices(mesh, dirichlet_);
@@ -123,16 +124,24 @@ void BoundaryLift::find_layer() {
   for (std::size_t k = 0; k < cells.extent(0); ++k) ids.push_back(mesh.cell_id[cells(k)]);
   const auto own = algebra::map_of({ids.begin(), ids.begin() + mesh.owned_cells}, mesh.comm);
   const auto all = algebra::map_of(ids, mesh.comm);
+  const algebra::Import import(own, all);
   algebra::Vector touches(own), touches_all(all);
-  {
-    const auto out = algebra::host_overwrite(touches);
-    for (LocalIndex K = 0; K < mesh.owned_cells; ++K) {
-      out(K) = 0;
-      for (int i = 0; i < 3; ++i)
-        if (held[host_.cell_vertices(K, i)] >= 0) out(K) = 1;
+  std::vector<bool> reached(mesh.vertices);
+  for (LocalIndex v = 0; v < mesh.vertices; ++v) reached[v] = held[v] >= 0;
+  for (int row = 0; row < rows; ++row) {
+    {
+      const auto out = algebra::host_overwrite(touches);
+      for (LocalIndex K = 0; K < mesh.owned_cells; ++K) {
+        out(K) = 0;
+        for (int i = 0; i < 3; ++i)
+          if (reached[host_.cell_vertices(K, i)]) out(K) = 1;
+      }
     }
+    touches_all.doImport(touches, import, Tpetra::INSERT);
+    const auto in = algebra::host_view(std::as_const(touches_all));
+    for (std::size_t k = 0; k < cells.extent(0); ++k)
+      for (int i = 0; i < 3 && in(k) != 0; ++i) reached[host_.cell_vertices(cells(k), i)] = true;
   }
-  touches_all.doImport(touches, algebra::Import(own, all), Tpetra::INSERT);
   const auto in = algebra::host_view(std::as_const(touches_all));
   std::vector<LocalIndex> layer, owned;
   std::vector<std::vector<Blend>> blends;
@@ -273,20 +282,26 @@ void BoundaryLift::minimise(const std::array<scene::FieldPtr, 2>& tension) {
 void BoundaryLift::integrate(const std::array<scene::FieldPtr, 2>& tension) {
   const mesh::Mesh& mesh = space_.mesh();
   const reference::Bernstein& B = space_.basis().bernstein();
-  const method::CellQuadrature quadrature = method::make_quadrature(mesh, owned_, order, nullptr);
+  const method::CellQuadrature of_blends = method::make_quadrature(mesh, owned_, order, nullptr),
+                               of_v = method::make_quadrature(mesh, owned_, 2 * degree_of_v, nullptr);
   const View<LocalIndex*> place("thixis::equilibration::place_in_layer", mesh.owned_cells);
   Kokkos::deep_copy(place, -1);
   const View<double* [2]> energy("thixis::equilibration::lift_energy", owned_.extent(0));
   const Kokkos::View<double***, Kokkos::LayoutRight> products("thixis::equilibration::lift_products", owned_.extent(0), 2, B.size);
   double sum = 0;
   for (int alpha = 0; alpha < count_; ++alpha) {
-    View<double*> mu;
+    View<double*> mu_of_blends, mu_of_v;
     const double* const constant = tension[alpha]->constant();
-    if (!constant) mu = method::tension_at_points(mesh, quadrature, *tension[alpha]);
+    if (!constant) {
+      mu_of_blends = method::tension_at_points(mesh, of_blends, *tension[alpha]);
+      mu_of_v = method::tension_at_points(mesh, of_v, *tension[alpha]);
+    }
     for (std::size_t k = 0; k < owned_.extent(0); ++k) {
       place(owned_(k)) = static_cast<LocalIndex>(k);
       const auto K = mesh::cell_geometry(host_.coordinates, host_.cell_vertices, owned_(k));
-      const PointsOf points(quadrature, static_cast<LocalIndex>(k));
+      const bool blended_here = !blends_[k].empty();
+      const PointsOf points(blended_here ? of_blends : of_v, static_cast<LocalIndex>(k));
+      const auto& mu = blended_here ? mu_of_blends : mu_of_v;
       for (int q = 0; q < points.count; ++q) {
         const double xi = points.xi(q, 0), eta = points.xi(q, 1), lambda[3] = {1 - xi - eta, xi, eta};
         const double weight = 2 * K.area * points.weight(q) * (constant ? *constant : mu(points.first + q));

@@ -11,8 +11,10 @@ namespace thixis::equilibration {
 ///
 ///     l(x) = lambda_j lambda_k q(lambda_k + lambda_i/2),     delta(s) = s (1 - s) q(s),  s from j to k,
 ///
-/// which is delta on the face and vanishes on the others; q a polynomial of degree `resolution`. v is continuous, of degree P_4 in the
-/// layer of cells that touch the held boundary, 0 on it and on the layer's rim, and makes the energy of L least.
+/// which is delta on the face and vanishes on the others; q a polynomial of degree `resolution`. v is continuous, of degree 4, in the layer
+/// of three rows of cells along the held boundary (those that touch it, those that touch these, …), 0 on it and on the layer's rim, and
+/// makes the energy of L least. Bubbles alone, v = 0, cost twice the least energy; one row leaves up to 25 % over the least energy of all
+/// liftings (degree 1), three rows 2 %.
 class BoundaryLift {
  public:
   static constexpr int resolution = 10;

@@ -3,7 +3,7 @@
 
 namespace thixis::equilibration {
 
-/// D of two membranes: in the layer of the lift, at the points of a rule for the products of polynomials of degree 8.
+/// D of two membranes: in the layer of the lift, at the points of a composite rule.
 Deviation deviation_of_membranes(const method::PolynomialSpace& space, const BoundaryLift& lift);
 
 /// D over an obstacle, at the points of the space's quadrature, which knows where psi has its kinks. Nothing where psi is its interpolant

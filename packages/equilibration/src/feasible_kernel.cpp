@@ -22,7 +22,7 @@ KOKKOS_FUNCTION FeasibleParts::Move FeasibleParts::move_polynomial(int K, const 
                                                                    bool counts) const {
   const int n = functions.size();
   Move move;
-  if (counts) move.contact = product(K, gap);
+  if (counts) move.contact = contact_of(K, gap);
   if (smallest(n, gap) >= 0) return move;
   double a[max_density];
   if (counts) density.monomials(&lambda(K, 0), a);
@@ -41,23 +41,26 @@ KOKKOS_FUNCTION FeasibleParts::Move FeasibleParts::move_pointwise(int K, LocalIn
   if (apart_already && !counts) return move;
   double a[max_density];
   if (counts) density.monomials(&lambda(K, 0), a);
+  int below = 0;
   const PointsOf points(deviation.quadrature, place);
   for (int q = 0; q < points.count; ++q) {
     const double xi = points.xi(q, 0), eta = points.xi(q, 1), barycentric[3] = {1 - xi - eta, xi, eta};
-    const double value = functions.B.value(gap, barycentric) + deviation.at_points(points.first + q, 0);
-    if (value >= 0) {
-      if (counts) move.contact += points.weight(q) * value * density.value(a, xi, eta);
-      continue;
-    }
+    const GlobalIndex at = points.first + q;
+    const double value = functions.B.value(gap, barycentric) + deviation.at_points(at, 0);
+    if (counts && value > 0) move.contact += points.weight(q) * value * density.value(a, xi, eta);
+    if (value >= 0) continue;
+    ++below;
     double slope[3], square = 0;
     functions.B.gradient(gap, barycentric, slope);
     for (int d = 0; d < 2; ++d) {
-      double g = deviation.at_points(points.first + q, 1 + d);
+      double g = deviation.at_points(at, 1 + d);
       for (int i = 0; i < 3; ++i) g += slope[i] * geometry.gradient[i][d];
       square += g * g;
     }
     move.square += 2 * geometry.area * points.weight(q) * square;
   }
+  // the points miss the zero line by up to their distance
+  if (below < points.count) move.square *= 1 + 2 / std::sqrt(static_cast<double>(points.count));
   return move;
 }
 

@@ -54,7 +54,7 @@ struct FeasibleParts {
  private:
   static constexpr int most = reference::max_functions;
 
-  /// The integrals over a cell of the part of the gap below zero that is taken away, and of density times what is left.
+  /// ∫_{g<0} |grad g|² of the gap g in a cell, and the integral of the density times max(g, 0).
   struct Move {
     double square = 0, contact = 0;
   };
@@ -65,7 +65,7 @@ struct FeasibleParts {
   }
   KOKKOS_FUNCTION Move move_polynomial(int K, const mesh::CellGeometry& geometry, const double* gap, bool counts) const;
   KOKKOS_FUNCTION Move move_pointwise(int K, LocalIndex place, const mesh::CellGeometry& geometry, const double* gap, bool counts) const;
-  KOKKOS_FUNCTION double product(int K, const double* gap) const {
+  KOKKOS_FUNCTION double contact_of(int K, const double* gap) const {
     const int n = functions.size(), m = n < lambda.extent_int(1) ? n : lambda.extent_int(1);
     double sum = 0;
     for (int k = 0; k < m; ++k) {

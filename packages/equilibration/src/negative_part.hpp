@@ -43,7 +43,7 @@ struct NegativePart {
       }
       if (low >= 0) continue;
       double square = gradient_square(products, K, n, part.c);
-      if (part.cuts == cuts) negligible = 1e-5 * square;
+      if (part.cuts == cuts) negligible = 1e-4 * square;
       if (high > 0) {
         const double some = steepest(K, part) * share_below(part);
         square = some < square ? some : square;

@@ -13,7 +13,12 @@ namespace thixis::equilibration {
 ///
 ///     u_h  ->  s_c: continuous (nodal averages, Dirichlet nodes from g; u_h itself for conforming spaces)
 ///          ->  s_N: gaps below zero at the nodes are closed, each membrane giving way by theta_alpha (mu_2, mu_1 over mu_1 + mu_2)
-///          ->  s:   + lift of g - g_h, then moved apart by what is left of the negative part of the gap, pointwise.
+///          ->  s:   + lift of g - g_h, then moved apart by what is left of the negative part of the gap, pointwise, in constant shares
+///                   (of the mean tensions where they vary); over an obstacle up to psi itself.
+///
+/// Polynomial pieces are integrated exactly (varying tensions: by the quadrature of the space). The pointwise move is bounded from above by
+/// subdivision where the gap is a polynomial; where lift or obstacle make it more than that, it is integrated at the points of a
+/// quadrature.
 ///
 /// Energies are those of the broken gradient, |||v|||_K² = sum_alpha ∫_K mu_alpha |grad v_alpha|².
 class FeasiblePair {
@@ -24,8 +29,8 @@ class FeasiblePair {
     std::array<method::BoundaryValues, 2> boundary;
     scene::FieldPtr obstacle;  ///< count = 1
   };
-  /// Set up once per mesh: the lift of g - g_h, its energy being nearly least over the cells that touch the boundary. Collective. The space
-  /// must outlive it.
+  /// Set up once per mesh: the lift of g - g_h, its energy being nearly least (nothing where g is a polynomial of degree p on every face).
+  /// Collective; the space must outlive it. Throws InputError where a function is not finite or a tension not positive.
   FeasiblePair(const method::PolynomialSpace& space, const Problem& problem);
   ~FeasiblePair();
   FeasiblePair(const FeasiblePair&) = delete;
@@ -33,13 +38,14 @@ class FeasiblePair {
 
   /// Of the owned cells.
   struct Parts {
-    View<double*> whole;     ///< |||s - u_h|||_K
+    View<double*> whole;     ///< |||s - u_h|||_K; where a pointwise move overlaps other pieces a bound, by the triangle inequality
     View<double*> at_nodes;  ///< |||s_N - s_c|||_K: what further Newton steps take away
     View<double*> rest;      ///< a bound on what remains: |||s - s_N|||_K + |||s_c - u_h|||_K
     View<double*> contact;   ///< (lambda, s_1 - s_2)_K
   };
-  /// u: coefficients of each membrane; `lambda`: the non-negative multiplier, densities of degree `degree` in modal coefficients
-  /// (owned cell, dim P_degree). Collective. Overwrites `parts`, which may be empty at first.
+  /// u: coefficients of each membrane; those of a conforming space take Space::lift of the data on the held boundary (Bernstein: brought in
+  /// order, docs/methods/membranes.md, 5). Over an obstacle only u[0] is read. `lambda`: the non-negative multiplier, densities of degree
+  /// `degree` <= 6 in modal coefficients (owned cell, dim P_degree). Collective. Overwrites `parts`, which may be empty at first.
   void evaluate(const method::Coefficients (&u)[2], const ConstCellTable& lambda, int degree, Parts& parts) const;
   /// |||lift of g - g_h||| over all cells.
   double boundary_energy() const;
