@@ -11,7 +11,9 @@ namespace thixis::drive::test {
 namespace {
 
 struct Solved {
-  explicit Solved(const RunParams& given) : params(given), model(params), hierarchy(mesh::build(params.mesh, core::Comm(), ".")) {
+  explicit Solved(const RunParams& given, int good_levels = 100)
+      : params(given), model(params), hierarchy(mesh::build(params.mesh, core::Comm(), ".")) {
+    model.good_levels = good_levels;
     Observer observer;
     observer.level = [this](const mesh::Mesh& mesh, int level, const models::Sizes& sizes) {
       solved.push_back(level), unknowns.push_back(sizes.unknowns_all), cells.push_back(mesh.global_cells);
@@ -116,6 +118,18 @@ TEST(Adaptive, a_target_behind_a_limit_is_missed_with_the_bound_that_was_reached
   std::snprintf(bound, sizeof bound, "%.4e", run.outcome.estimate->total);
   EXPECT_EQ(verdict.sentence, std::string("target missed: energy error at most ") + bound +
                                   " (guaranteed), not 1e-06; refinement ended by adapt/max levels = 1.");
+}
+
+TEST(Adaptive, keeps_the_solution_with_the_smallest_bound_where_the_target_is_missed) {
+  RunParams params = with_limits(3);
+  params.stopping.target = 1e-6;
+  const Solved whole(params), run(params, 2);
+  EXPECT_EQ(run.outcome.at.level, 2);
+  EXPECT_EQ(run.outcome.mesh, &run.hierarchy.levels[2]);
+  EXPECT_EQ(run.outcome.estimate->total, run.ends[1].estimate->total);
+  EXPECT_EQ(run.outcome.energy_error, whole.ends[1].energy_error);
+  EXPECT_TRUE(run.outcome.kkt->holds(run.outcome.kkt_tolerance));
+  EXPECT_EQ(run.outcome.cell_estimates.discretization.size(), static_cast<std::size_t>(run.outcome.mesh->owned_cells));
 }
 
 TEST(Adaptive, the_exact_rule_asks_for_one_estimate_at_the_end_of_each_level) {

@@ -13,8 +13,8 @@ namespace {
 
 class Estimated final : public models::Discretization {
  public:
-  Estimated(const EstimatedModel& model, std::unique_ptr<models::Discretization> inner, const mesh::Mesh& mesh)
-      : model_(model), inner_(std::move(inner)), mesh_(mesh) {}
+  Estimated(const EstimatedModel& model, std::unique_ptr<models::Discretization> inner, const mesh::Mesh& mesh, double effectivity)
+      : model_(model), inner_(std::move(inner)), mesh_(mesh), effectivity_(effectivity) {}
 
   complementarity::Problem& problem() override { return inner_->problem(); }
   models::Sizes sizes() const override { return inner_->sizes(); }
@@ -40,7 +40,7 @@ class Estimated final : public models::Discretization {
     for (const double gap : K.getData()) below[0] += std::max(-gap, 0.0);
     for (const double lambda : G.getData()) below[1] += std::max(-lambda, 0.0);
     complementarity::Estimate eta;
-    eta.discretization = model_.effectivity * *inner_->energy_error(X);
+    eta.discretization = effectivity_ * *inner_->energy_error(X);
     eta.algebraic = R.norm2();
     eta.linearization = mesh_.comm.sum(below[0]) + 1e-2 * mesh_.comm.sum(below[1]);
     eta.total = eta.discretization + eta.linearization + eta.algebraic;
@@ -86,6 +86,7 @@ class Estimated final : public models::Discretization {
   const EstimatedModel& model_;
   std::unique_ptr<models::Discretization> inner_;
   const mesh::Mesh& mesh_;
+  double effectivity_;
   models::CellEstimates cells_;
 };
 
@@ -96,7 +97,8 @@ EstimatedModel::EstimatedModel(const RunParams& params)
 
 std::unique_ptr<models::Discretization> EstimatedModel::discretize(const mesh::Hierarchy& hierarchy, int level) const {
   entered.push_back(level);
-  return std::make_unique<Estimated>(*this, inner_->discretize(hierarchy, level), hierarchy.levels[level]);
+  return std::make_unique<Estimated>(*this, inner_->discretize(hierarchy, level), hierarchy.levels[level],
+                                     (level > good_levels ? 10 : 1) * effectivity);
 }
 
 RunParams smooth_contact() {
