@@ -19,7 +19,10 @@ void refine(mesh::Hierarchy& hierarchy, const std::vector<GlobalIndex>& marked) 
 void solve_adaptively(LevelSolver& solver, mesh::Hierarchy& hierarchy, const RunParams& params, const Observer& observer) {
   const AdaptParams adapt = params.adapt.value_or(AdaptParams());
   Outcome& outcome = solver.outcome();
-  const auto end = [&outcome](const std::string& why) { outcome.refinement_ended = why; };
+  const auto end = [&](const std::string& why) {
+    outcome.refinement_ended = why;
+    solver.return_to_best();
+  };
 
   for (int added = static_cast<int>(hierarchy.levels.size()) - 1 - params.mesh.refinements; solver.goes_on(); ++added) {
     if (params.stopping.target && outcome.estimate->total <= *params.stopping.target) return;

@@ -34,12 +34,16 @@ void LevelSolver::enter(int level, std::unique_ptr<models::Discretization> discr
                  : stored_               ? discretization->restore(*stored_)
                                          : discretization->cold_start();
   if (outcome_.at.level != level) outcome_.at.newton_on_level = 0;
-  outcome_.at.level = level;
   outcome_.nested = outcome_.discretization || (stored_ && level > params_.mesh.refinements);
   outcome_.discretization = std::move(discretization);
   outcome_.X = X;
-  outcome_.mesh = &hierarchy_.levels[level];
+  set_mesh(level);
   if (observer_.level) observer_.level(*outcome_.mesh, level, outcome_.discretization->sizes());
+}
+
+void LevelSolver::set_mesh(int level) {
+  outcome_.at.level = level;
+  outcome_.mesh = &hierarchy_.levels[level];
 }
 
 void LevelSolver::run_newton() {
@@ -65,12 +69,27 @@ void LevelSolver::estimate() {
     const core::Region region("verification");
     outcome_.energy_error = outcome_.discretization->energy_error(*outcome_.X);
   }
+  if (params_.stopping.target && outcome_.solved && !(best_ && best_->bound <= outcome_.estimate->total))
+    best_ = {outcome_.at.level, outcome_.at.newton_on_level, outcome_.X, outcome_.finest, outcome_.estimate->total};
   if (!observer_.level_end) return;
   Progress progress;
   progress.level = outcome_.at.level;
   progress.energy_error = outcome_.energy_error;
   progress.estimate = outcome_.estimate;
   observer_.level_end(progress);
+}
+
+void LevelSolver::return_to_best() {
+  if (!best_ || best_->level == outcome_.at.level) return;
+  set_mesh(best_->level);
+  outcome_.at.newton_on_level = best_->newton_on_level;
+  outcome_.finest = best_->newton;
+  outcome_.discretization = discretize(best_->level);
+  outcome_.X = Teuchos::rcp(new algebra::Vector(outcome_.discretization->problem().map()));
+  Tpetra::deep_copy(*outcome_.X, *best_->X);
+  const core::Region region("estimate");
+  outcome_.estimate = outcome_.discretization->estimate(*outcome_.X);
+  outcome_.energy_error = outcome_.discretization->energy_error(*outcome_.X);
 }
 
 /// Hands on what Newton tells about a level, and counts in `at`.

@@ -18,11 +18,15 @@ class LevelSolver {
   /// end.
   void solve(int level, std::unique_ptr<models::Discretization> discretization);
 
+  /// Where a finer mesh has not made the bound smaller: back to the solution with the smallest one. Only in runs with a target.
+  void return_to_best();
+
   Outcome& outcome() { return outcome_; }
 
  private:
   void enter(int level, std::unique_ptr<models::Discretization> discretization);
   void run_newton();
+  void set_mesh(int level);
   void estimate();
   complementarity::NewtonObserver on_level();
 
@@ -32,6 +36,15 @@ class LevelSolver {
   const Observer& observer_;
   const output::StoredCheckpoint* stored_;
   Outcome outcome_;
+
+  /// A solution without its discretization.
+  struct Kept {
+    int level, newton_on_level;
+    Teuchos::RCP<algebra::Vector> X;
+    complementarity::NewtonReport newton;
+    double bound;
+  };
+  std::optional<Kept> best_;
 };
 
 }  // namespace thixis::drive
