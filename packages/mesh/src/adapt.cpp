@@ -12,7 +12,7 @@
 namespace thixis::mesh {
 namespace {
 
-/// Nothing cut yet: on several ranks, every one makes the uniform levels whole, by arithmetic alone.
+/// Nothing cut yet. On several ranks, every one makes the uniform levels whole by arithmetic alone, and the first partition again.
 Adaptive begin(const Hierarchy& hierarchy) {
   Adaptive state;
   state.uniform_levels = static_cast<int>(hierarchy.levels.size());
@@ -24,6 +24,7 @@ Adaptive begin(const Hierarchy& hierarchy) {
       if (j == hierarchy.partitioned) state.trees = std::make_shared<const Mesh>(whole);
     }
     state.tree.resize(whole.cells);
+    state.tree_owner = partition(*state.trees, hierarchy.finest().comm);
     const int shift = 2 * (state.uniform_levels - 1 - hierarchy.partitioned);
     for (LocalIndex K = 0; K < whole.cells; ++K) state.tree[K] = K >> shift;
     state.finest = std::make_shared<const Mesh>(whole);
@@ -75,7 +76,7 @@ Mesh share_out(const Mesh& coarse, Mesh whole, Adaptive& state) {
   auto step = std::make_shared<Adaptive::Step>();
   std::vector<LocalIndex> tree(whole.cells), leaves(state.trees->cells, 0);
   for (LocalIndex K = 0; K < whole.cells; ++K) ++leaves[tree[K] = state.tree[whole.cell_parent[K]]];
-  step->tree_owner = partition(*state.trees, coarse.comm, leaves);
+  state.tree_owner = step->tree_owner = repartition(*state.trees, coarse.comm, leaves, state.tree_owner);
 
   std::vector<int> owner(whole.cells);
   for (LocalIndex K = 0; K < whole.cells; ++K) owner[K] = step->tree_owner[tree[K]];

@@ -24,6 +24,7 @@ struct Adaptive {
   std::shared_ptr<const Mesh> finest;              ///< the finest level, likewise
   std::vector<std::uint8_t> edge;                  ///< refinement edge of each cell of the finest level: number of the face
   std::vector<LocalIndex> tree;                    ///< of each cell of the finest level
+  std::vector<int> tree_owner;                     ///< of each tree, on the finest level
 };
 
 }  // namespace thixis::mesh

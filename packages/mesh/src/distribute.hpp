@@ -8,6 +8,11 @@ namespace thixis::mesh {
 /// order of local numbers. A rank may stay without cells, and does if there are fewer cells than ranks. Deterministic; collective.
 std::vector<int> partition(const Mesh& whole, const core::Comm& comm, const std::vector<LocalIndex>& weight = {});
 
+/// The same where the cells have owners already: these as they are while no rank has more than 1.05 times its share of the weight; else a
+/// new partition whose parts go to the ranks that hold most of them.
+std::vector<int> repartition(const Mesh& whole, const core::Comm& comm, const std::vector<LocalIndex>& weight,
+                             const std::vector<int>& owner);
+
 /// Writes the owners of the cells of a whole mesh, and those of its vertices and faces: the lowest rank among those of the cells around.
 void set_owners(std::vector<int> cell_owner, Mesh& mesh);
 

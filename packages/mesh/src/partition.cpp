@@ -1,5 +1,6 @@
 #include <metis.h>
 
+#include <algorithm>
 #include <numeric>
 
 #include "distribute.hpp"
@@ -42,6 +43,36 @@ std::vector<int> cut_graph(DualGraph graph, std::vector<idx_t> weight, int ranks
   return std::vector<int>(part.begin(), part.end());
 }
 
+/// The weight of the heaviest part over that of the mean one.
+double imbalance(const std::vector<LocalIndex>& weight, const std::vector<int>& part, int parts) {
+  std::vector<GlobalIndex> load(parts, 0);
+  for (std::size_t K = 0; K < part.size(); ++K) load[part[K]] += weight[K];
+  const GlobalIndex total = std::accumulate(load.begin(), load.end(), GlobalIndex{0});
+  return static_cast<double>(*std::max_element(load.begin(), load.end())) * parts / static_cast<double>(total);
+}
+
+/// Gives each part the number, 0..parts-1, of an old part with which it has much in common: the largest intersections first.
+void keep_numbers(const std::vector<LocalIndex>& weight, const std::vector<int>& old, int parts, std::vector<int>& part) {
+  struct Intersection {
+    GlobalIndex weight;
+    int old, part;
+  };
+  std::vector<Intersection> common(static_cast<std::size_t>(parts) * parts);
+  for (int o = 0; o < parts; ++o)
+    for (int p = 0; p < parts; ++p) common[o * parts + p] = {0, o, p};
+  for (std::size_t K = 0; K < part.size(); ++K) common[old[K] * parts + part[K]].weight += weight[K];
+  std::stable_sort(common.begin(), common.end(), [](const Intersection& a, const Intersection& b) { return a.weight > b.weight; });
+
+  std::vector<int> number(parts, -1);
+  std::vector<char> given(parts, 0);
+  for (const Intersection& c : common)
+    if (number[c.part] < 0 && !given[c.old]) {
+      number[c.part] = c.old;
+      given[c.old] = 1;
+    }
+  for (int& p : part) p = number[p];
+}
+
 }  // namespace
 
 std::vector<int> partition(const Mesh& whole, const core::Comm& comm, const std::vector<LocalIndex>& weight) {
@@ -53,6 +84,15 @@ std::vector<int> partition(const Mesh& whole, const core::Comm& comm, const std:
     return owner;
   }
   return comm.on_root([&] { return cut_graph(dual_graph(whole), {weight.begin(), weight.end()}, ranks); });
+}
+
+std::vector<int> repartition(const Mesh& whole, const core::Comm& comm, const std::vector<LocalIndex>& weight,
+                             const std::vector<int>& owner) {
+  constexpr double tolerated = 1.05;
+  if (imbalance(weight, owner, comm.size()) <= tolerated) return owner;
+  std::vector<int> part = partition(whole, comm, weight);
+  keep_numbers(weight, owner, comm.size(), part);
+  return part;
 }
 
 }  // namespace thixis::mesh

@@ -80,9 +80,10 @@ struct Poisson {
   }
 };
 
-/// Three adaptive levels, each around another corner of the first cell of the coarsest mesh, so that parts of the ranks move.
+/// Three adaptive levels, each around another corner of the first cell of the coarsest mesh, so that cells move to other ranks.
 void adapt_around_a_cell(mesh::Hierarchy& levels) {
   const auto root = mesh::on_host(*levels.root);
+  bool moved = false;
   for (int corner = 0; corner < 3; ++corner) {
     const LocalIndex v = root.cell_vertices(0, corner);
     const mesh::Mesh& mesh = levels.finest();
@@ -94,7 +95,10 @@ void adapt_around_a_cell(mesh::Hierarchy& levels) {
             host.coordinates(host.cell_vertices(K, i), 1) == root.coordinates(v, 1))
           marked.push_back(K);
     mesh::adapt(levels, marked);
+    const mesh::Mesh& fine = levels.finest();
+    for (LocalIndex K = 0; K < fine.owned_cells; ++K) moved = moved || fine.cell_parent[K] < 0 || fine.cell_parent[K] >= mesh.owned_cells;
   }
+  EXPECT_EQ(levels.finest().comm.any(moved), levels.finest().comm.size() > 1);
 }
 
 class Hybrid : public ::testing::TestWithParam<Setting> {

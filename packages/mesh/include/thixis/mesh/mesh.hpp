@@ -15,7 +15,8 @@ namespace thixis::mesh {
 template <class Data>
 using View = Kokkos::View<Data, Kokkos::LayoutRight>;
 
-/// How the cells of the next level are cut. Every refinement puts one vertex on each face and makes four cells of each.
+/// How the cells of the next level are cut where all are: every uniform refinement puts one vertex on each face and makes four cells of
+/// each.
 enum class Refinement {
   red,       ///< three corner triangles and the middle one, all similar to the parent
   bisection  ///< two newest-vertex bisections: vertex 0 is the newest vertex, its opposite face the refinement edge
