@@ -216,7 +216,7 @@ class MembraneDiscretization final : public Discretization {
 
   /// f(X with what the bounds read of it).
   template <class F>
-  auto at_iterate(const Vector& X, F f) const {
+  auto at_iterate(const Vector& X, F f) const -> decltype(f(equilibration::Iterate{})) {
     const Fields x = fields(X);
     Vector R(problem_->map()), gap_l(problem_->points());
     problem_->equations(X, R);
