@@ -11,6 +11,7 @@
 #include "thixis/core/error.hpp"
 #include "thixis/core/timer.hpp"
 #include "thixis/equilibration/guaranteed_bound.hpp"
+#include "thixis/equilibration/published_bound.hpp"
 
 namespace thixis::models {
 namespace {
@@ -139,20 +140,7 @@ class MembraneDiscretization final : public Discretization {
       const core::Region region("estimate set-up");
       bound_ = std::make_unique<equilibration::GuaranteedBound>(polynomials(), contact_problem(), hierarchy_, level_);
     }
-    const Fields x = fields(X);
-    Vector R(problem_->map()), gap_l(problem_->points());
-    problem_->equations(X, R);
-    Fields r = fields(R);
-    r.u.scale(-1);
-    gap(problem_->membranes(), x.u, gap_l);
-    equilibration::Iterate iterate;
-    iterate.lambda = &x.lambda;
-    iterate.gap = &gap_l;
-    const auto residual0 = r.u.getVector(0), residual1 = r.u.getVector(scene_.count - 1);
-    iterate.residual[0] = residual0.get();
-    iterate.residual[1] = residual1.get();
-    for (int alpha = 0; alpha < scene_.count; ++alpha) iterate.u[alpha] = membrane(x, alpha);
-    return (*bound_)(iterate);
+    return at_iterate(X, [&](const equilibration::Iterate& iterate) { return (*bound_)(iterate); });
   }
 
   CellEstimates cell_estimates() const override {
@@ -166,7 +154,24 @@ class MembraneDiscretization final : public Discretization {
     return {copy(parts.discretization), copy(parts.linearization), copy(parts.algebraic)};
   }
 
-  std::optional<PublishedEstimate> published_estimate(const Vector&) override { return std::nullopt; }
+  std::optional<PublishedEstimate> published_estimate(const Vector& X, std::optional<double> friedrichs) override {
+    if (!polynomials().conforming()) return std::nullopt;
+    const Boundary boundary = boundary_of(scene_, space_->mesh());
+    const bool held = std::all_of(boundary.dirichlet.begin(), boundary.dirichlet.end(), [](bool dirichlet) { return dirichlet; });
+    if (!friedrichs && !held) return std::nullopt;
+    const double C = friedrichs ? *friedrichs : equilibration::friedrichs_of_box(space_->mesh());
+    return at_iterate(X, [&](const equilibration::Iterate& iterate) {
+      const Coefficients gap = difference(iterate.u[0], scene_.count == 2 ? iterate.u[1] : obstacle_);
+      const auto bound = equilibration::published_bound(polynomials(), contact_problem(), hierarchy_, level_, iterate, gap, C);
+      return PublishedEstimate{bound.parts,
+                               {{"flux", bound.flux},
+                                {"residual", bound.residual},
+                                {"contact", bound.contact},
+                                {"nonconformity_1", bound.nonconformity[0]},
+                                {"nonconformity_2", bound.nonconformity[1]},
+                                {"nonconformity_3", bound.nonconformity[2]}}};
+    });
+  }
 
   complementarity::KktData kkt_data(const Vector& X) const override {
     MembraneSolution solution{scene_, *space_, *problem_, body_, fields(X), {}};
@@ -208,6 +213,26 @@ class MembraneDiscretization final : public Discretization {
   Fields fields() const { return Fields(problem_->membranes()); }
   Fields fields(const Vector& X) const { return Fields(problem_->membranes(), X); }
   Coefficients membrane(const Fields& x, int alpha) const { return space_->complete(*x.u.getVector(alpha), lift_[alpha]); }
+
+  /// f(X with what the bounds read of it).
+  template <class F>
+  auto at_iterate(const Vector& X, F f) const -> decltype(f(equilibration::Iterate{})) {
+    const Fields x = fields(X);
+    Vector R(problem_->map()), gap_l(problem_->points());
+    problem_->equations(X, R);
+    Fields r = fields(R);
+    r.u.scale(-1);
+    gap(problem_->membranes(), x.u, gap_l);
+    const Teuchos::RCP<const Vector> residual[2] = {r.u.getVector(0), r.u.getVector(scene_.count - 1)};
+    equilibration::Iterate iterate;
+    iterate.lambda = &x.lambda;
+    iterate.gap = &gap_l;
+    for (int alpha = 0; alpha < scene_.count; ++alpha) {
+      iterate.u[alpha] = membrane(x, alpha);
+      iterate.residual[alpha] = residual[alpha].get();
+    }
+    return f(iterate);
+  }
 
   const method::PolynomialSpace& polynomials() const { return dynamic_cast<const method::PolynomialSpace&>(*space_); }
 
