@@ -166,6 +166,8 @@ class MembraneDiscretization final : public Discretization {
     return {copy(parts.discretization), copy(parts.linearization), copy(parts.algebraic)};
   }
 
+  std::size_t bytes_of_estimate() const override { return bound_ ? bound_->bytes() : 0; }
+
   std::optional<PublishedEstimate> published_estimate(const Vector&) override { return std::nullopt; }
 
   complementarity::KktData kkt_data(const Vector& X) const override {
