@@ -94,10 +94,11 @@ struct GuaranteedBound::Impl {
     moments = table("thixis::equilibration::moments", patch_cells, space.basis().size());
     lambda = table("thixis::equilibration::lambda", owned, n);
     sigma = table("thixis::equilibration::sigma", owned, flux);
+    const CutOscillation cut_cells(space, q, problem.interface);
     for (int alpha = 0; alpha < problem.count; ++alpha) {
       Membrane& m = membrane[alpha];
       m.least_tension = least_tension(space, *problem.tension[alpha]);
-      m.data = sources(space, q, *problem.force[alpha], problem.boundary[alpha], problem.interface, m.least_tension);
+      m.data = sources(space, q, *problem.force[alpha], problem.boundary[alpha], &cut_cells, m.least_tension);
       m.stress = make_stress(space, q, *problem.tension[alpha], m.least_tension);
       m.w = table("thixis::equilibration::stress", patch_cells, 2 * n);
       m.r_alg = table("thixis::equilibration::r_alg", patch_cells, n);
@@ -251,7 +252,6 @@ complementarity::Estimate GuaranteedBound::Impl::sum_up(const Iterate& iterate) 
   Kokkos::deep_copy(cells.linearization, of_lin_K);
   Kokkos::deep_copy(cells.algebraic, of_alg_K);
   comm.sum(sum);
-  printf("   flux %.3e whole %.3e 2B %.3e\n", std::sqrt(sum[of_flux]), std::sqrt(sum[of_whole]), std::sqrt(2 * sum[contact]));
   complementarity::Estimate eta;
   eta.total = std::sqrt(sum[of_flux] + sum[of_whole] + 2 * sum[contact]);
   eta.discretization = std::sqrt(sum[of_disc]) + std::sqrt(sum[of_rest]) + std::sqrt(2 * std::abs(sum[contact] - sum[contact_nodes]));

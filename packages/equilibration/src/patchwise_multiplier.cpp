@@ -51,8 +51,8 @@ struct FitPatch {
   Matrix from_lattice;                                           ///< (b, b)
   Matrix hat_integral;                                           ///< (i, b): ∫ lambda_i B_b
   Kokkos::View<const double***, Kokkos::LayoutRight> hat_modal;  ///< (i, m, b): ∫ lambda_i B_b phi_m
-  View<const double*> moment;     ///< of entries, 0 where there is none
-  View<const double*> cell_mean;  ///< of the moments shared out to the patch cells
+  View<const double*> moment;                                    ///< of entries, 0 where there is none
+  View<const double*> cell_mean;                                 ///< of the moments shared out to the patch cells
   CellTable patch;                                               ///< out, overwritten
   View<double*> mean;                                            ///< out: of L_a; -1 where no function is free
 
@@ -295,6 +295,10 @@ class PatchwiseMultiplier final : public NonNegativeMultiplier {
       for (int b = 0; b < n; ++b)
         for (int m = 0; m < functions; ++m) tested[l * n + b] += psi[m * functions + l] * T[m * n + b];
     const auto lattice = bernstein_lattice(B_), from_lattice = equilibration::from_lattice(B_);
+    std::vector<double> tested_at_lattice(functions * n, 0.0);  // (l, v): values at the lattice -> moments
+    for (int l = 0; l < functions; ++l)
+      for (int r = 0; r < n; ++r)
+        for (int v = 0; v < n; ++v) tested_at_lattice[l * n + v] += tested[l * n + r] * from_lattice[r * n + v];
 
     const LocalIndex count = patches_.size();
     std::vector<LocalIndex> node, node_offset(1, 0), fit_offset(1, 0);
@@ -342,8 +346,7 @@ class PatchwiseMultiplier final : public NonNegativeMultiplier {
             if (!inside_patch(basis.entities()[l], corner(e)) || at < 0) continue;
             for (int b = 0; b < n; ++b) {
               double sum = 0;
-              for (int r = 0; r < n; ++r)
-                for (int v = 0; v < n; ++v) sum += tested[l * n + r] * from_lattice[r * n + v] * at_lattice[v * n + b];
+              for (int v = 0; v < n; ++v) sum += tested_at_lattice[l * n + v] * at_lattice[v * n + b];
               A[(at - first) * n + b] += metric(k).det * sum;
             }
           }
