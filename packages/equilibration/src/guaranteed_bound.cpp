@@ -251,7 +251,6 @@ complementarity::Estimate GuaranteedBound::Impl::sum_up(const Iterate& iterate) 
   Kokkos::deep_copy(cells.linearization, of_lin_K);
   Kokkos::deep_copy(cells.algebraic, of_alg_K);
   comm.sum(sum);
-  printf("   flux %.3e whole %.3e 2B %.3e\n", std::sqrt(sum[of_flux]), std::sqrt(sum[of_whole]), std::sqrt(2 * sum[contact]));
   complementarity::Estimate eta;
   eta.total = std::sqrt(sum[of_flux] + sum[of_whole] + 2 * sum[contact]);
   eta.discretization = std::sqrt(sum[of_disc]) + std::sqrt(sum[of_rest]) + std::sqrt(2 * std::abs(sum[contact] - sum[contact_nodes]));
