@@ -139,7 +139,10 @@ struct GuaranteedBound::Impl {
       else Kokkos::deep_copy(flux_of, 0);
     }
     (*m.stress)(iterate.u[alpha], m.w);
-    if (!patches) return space.native_flux(*problem.tension[alpha], iterate.u[alpha], problem.boundary[alpha], 0, m.sigma_disc);
+    if (!patches) {
+      space.native_flux(*problem.tension[alpha], *problem.force[alpha], iterate.u[alpha], problem.boundary[alpha], 0, m.sigma_disc);
+      return;
+    }
     Kokkos::parallel_for(
         "thixis::equilibration::patch_data", Kokkos::RangePolicy<>(0, patch_cells),
         PatchSources{m.data.force, m.r_alg, m.r_lin, patch_lambda, m.w, alpha == 0 ? 1.0 : -1.0, times, patch_density, patch_target});
@@ -250,7 +253,6 @@ complementarity::Estimate GuaranteedBound::Impl::sum_up(const Iterate& iterate) 
   Kokkos::deep_copy(cells.linearization, of_lin_K);
   Kokkos::deep_copy(cells.algebraic, of_alg_K);
   comm.sum(sum);
-    printf("   flux %.3e whole %.3e 2B %.3e\n", std::sqrt(sum[of_flux]), std::sqrt(sum[of_whole]), std::sqrt(2 * sum[contact]));
   complementarity::Estimate eta;
   eta.total = std::sqrt(sum[of_flux] + sum[of_whole] + 2 * sum[contact]);
   eta.discretization = std::sqrt(sum[of_disc]) + std::sqrt(sum[of_rest]) + std::sqrt(2 * std::abs(sum[contact] - sum[contact_nodes]));
