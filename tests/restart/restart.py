@@ -141,6 +141,20 @@ def every():
     assert not (scratch / "often/checkpoint.h5").exists()
 
 
+def adaptive():
+    """The meshes that were added are built again from what the checkpoint knows, on any number of ranks."""
+    target = ["--set", "stopping/target=5e-4", "--set", "output/checkpoint every=1000"]
+    thixis("run", CONTACT, "--output", "whole", *target)
+    assert summary("whole")["verdict"].startswith("solved") and len({level for level, _ in newton_steps("whole")}) > 3
+    thixis("run", CONTACT, "--output", "cut", *target, "--set", "adapt/max levels=1", ranks=2, expect=4)
+    assert summary("cut")["verdict"].startswith("target missed: energy error at most "), summary("cut")["verdict"]
+    thixis("restart", "cut/checkpoint.h5", "--set", "adapt/max levels=2", ranks=3, expect=4)
+    thixis("restart", "cut/checkpoint.h5", "--set", "adapt/max levels=30")
+    a, b = summary("cut"), summary("whole")
+    assert a["exit_code"] == 0 and a["cells"] == b["cells"] and a["unknowns"] == b["unknowns"], (a["cells"], b["cells"])
+    assert abs(a["estimate"]["total"] - b["estimate"]["total"]) <= 1e-6 * b["estimate"]["total"], (a["estimate"], b["estimate"])
+
+
 def refusals():
     checkpoint = interrupted("cut", 1)
     before = (scratch / "cut/summary.json").read_text()
@@ -166,4 +180,4 @@ def refusals():
 shutil.rmtree(scratch, ignore_errors=True)
 scratch.mkdir(parents=True)
 {"from_1_rank": lambda: from_ranks(1), "from_2_ranks": lambda: from_ranks(2), "from_3_ranks": lambda: from_ranks(3), "nested": nested,
- "mesh_file": mesh_file, "every": every, "refusals": refusals}[scenario]()
+ "mesh_file": mesh_file, "every": every, "adaptive": adaptive, "refusals": refusals}[scenario]()

@@ -71,7 +71,10 @@ const core::Schema<StoppingParams>& StoppingParams::schema() {
               "Estimate the error after every Newton step and at every look into the linear solver; if not given, only where rule, target "
               "or adaptivity need it.")
           .parameter("target", &Params::target, core::above(0),
-                     "The mesh is refined until the energy error is guaranteed to be at most this.");
+                     "The mesh is refined until the energy error is guaranteed to be at most this.")
+          .parameter("friedrichs constant", &Params::friedrichs, core::above(0),
+                     "C in |v| <= C |grad v| for the bound of the literature, a length; if not given, that of the box around the domain, "
+                     "which serves where the whole boundary is held.");
   return s;
 }
 

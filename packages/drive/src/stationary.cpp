@@ -15,7 +15,7 @@ void verify(Outcome& outcome, const RunParams& params) {
   if (outcome.estimate) outcome.cell_estimates = discretization.cell_estimates();
   if (outcome.estimate && params.stopping.estimate.value_or(false)) {
     const core::Region region("estimate");
-    outcome.published = discretization.published_estimate(*outcome.X);
+    outcome.published = discretization.published_estimate(*outcome.X, params.stopping.friedrichs);
   }
   const core::Region region("verification");
   const auto kkt_data = discretization.kkt_data(*outcome.X);

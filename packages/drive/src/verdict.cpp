@@ -24,7 +24,8 @@ std::string solved(const RunParams& params, const Outcome& outcome) {
   if (outcome.estimate) sentence += "; " + bound(outcome);
   if (params.stopping.target) sentence += fmt::format(", as asked for by stopping/target = {:g}", *params.stopping.target);
   else if (!outcome.refinement_ended.empty()) sentence += "; refinement ended by " + outcome.refinement_ended;
-  return sentence + fmt::format("; contact conditions hold to {:.1e}.", outcome.kkt->worst());
+  const char* unjudged = outcome.kkt->holds(outcome.kkt_tolerance) ? "" : ", which the rule adaptive does not judge";
+  return sentence + fmt::format("; contact conditions hold to {:.1e}{}.", outcome.kkt->worst(), unjudged);
 }
 
 std::string target_missed(const RunParams& params, const Outcome& outcome) {

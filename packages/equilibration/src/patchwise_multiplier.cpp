@@ -51,10 +51,10 @@ struct FitPatch {
   Matrix from_lattice;                                           ///< (b, b)
   Matrix hat_integral;                                           ///< (i, b): ∫ lambda_i B_b
   Kokkos::View<const double***, Kokkos::LayoutRight> hat_modal;  ///< (i, m, b): ∫ lambda_i B_b phi_m
-  View<const double*> moment;     ///< of entries, 0 where there is none
-  View<const double*> cell_mean;  ///< of the moments shared out to the patch cells
-  CellTable patch;                                               ///< out, overwritten
-  View<double*> mean;                                            ///< out: of L_a; -1 where no function is free
+  View<const double*> moment;                                    ///< of entries, 0 where there is none
+  View<const double*> cell_mean;  ///< of lambda, from the moments of the free functions; -1 where there is none
+  CellTable patch;                ///< out, overwritten
+  View<double*> mean;             ///< out: of L_a; -1 where no function is free
 
   KOKKOS_FUNCTION void operator()(int a) const {
     const int n = from_lattice.extent_int(0), modes = hat_modal.extent_int(1);
@@ -89,13 +89,14 @@ struct FitPatch {
 
   /// The simple function with the moment of L_a: its mean, or, along the edge of the contact zone, in proportion to the means of the cells.
   KOKKOS_FUNCTION double in_cell(LocalIndex k, double average, double steepness) const {
-    return steepness > 0 ? average * steepness * cell_mean(k) : average;
+    return steepness > 0 && cell_mean(k) >= 0 ? average * steepness * cell_mean(k) : average;
   }
   /// The factor of proportion over the mean; 0 away from the edge.
   KOKKOS_FUNCTION double concentration(int a) const {
     double lowest = 1e300, highest = 0, integral = 0, area = 0;
     for (LocalIndex e = patches.offset(a); e < patches.offset(a + 1); ++e) {
       const LocalIndex k = patches.cell(e);
+      if (cell_mean(k) < 0) continue;
       lowest = cell_mean(k) < lowest ? cell_mean(k) : lowest;
       highest = cell_mean(k) > highest ? cell_mean(k) : highest;
       integral += metric(k).det / 6 * cell_mean(k);
@@ -202,6 +203,7 @@ class PatchwiseMultiplier final : public NonNegativeMultiplier {
         KOKKOS_LAMBDA(int a) { patch_of_vertex(vertex(a)) = a; });
     tabulate();
     set_up();
+    set_up_means();
   }
 
   void operator()(const algebra::Vector& moments, const CellTable& density, const CellTable& patch) const override {
@@ -215,13 +217,16 @@ class PatchwiseMultiplier final : public NonNegativeMultiplier {
     const auto at_entries =
         space_.complete(all, method::Coefficients("thixis::equilibration::nothing", space_.coefficients().entries.size()));
     space_.share(all, shared_);
-    const auto shared = shared_;
-    const auto metric = metric_;
+    const auto shared = shared_, of_mean = of_mean_;
     const auto cell_mean = cell_mean_;
     Kokkos::parallel_for(
         "thixis::equilibration::cell_means", Kokkos::RangePolicy<>(0, cell_mean.extent_int(0)), KOKKOS_LAMBDA(int k) {
-          cell_mean(k) = 0;
-          for (int l = 0; l < shared.extent_int(1); ++l) cell_mean(k) += 2 * shared(k, l) / metric(k).det;
+          double sum = 0, known = 0;
+          for (int l = 0; l < shared.extent_int(1); ++l) {
+            sum += of_mean(k, l) * shared(k, l);
+            known += of_mean(k, l);
+          }
+          cell_mean(k) = known > 0 ? sum : -1;
         });
     const mesh::Mesh& mesh = space_.mesh();
     Kokkos::parallel_for("thixis::equilibration::fit_multiplier", Kokkos::RangePolicy<>(0, patches_.size()),
@@ -295,6 +300,10 @@ class PatchwiseMultiplier final : public NonNegativeMultiplier {
       for (int b = 0; b < n; ++b)
         for (int m = 0; m < functions; ++m) tested[l * n + b] += psi[m * functions + l] * T[m * n + b];
     const auto lattice = bernstein_lattice(B_), from_lattice = equilibration::from_lattice(B_);
+    std::vector<double> tested_at_lattice(functions * n, 0.0);  // (l, v): values at the lattice -> moments
+    for (int l = 0; l < functions; ++l)
+      for (int r = 0; r < n; ++r)
+        for (int v = 0; v < n; ++v) tested_at_lattice[l * n + v] += tested[l * n + r] * from_lattice[r * n + v];
 
     const LocalIndex count = patches_.size();
     std::vector<LocalIndex> node, node_offset(1, 0), fit_offset(1, 0);
@@ -342,8 +351,7 @@ class PatchwiseMultiplier final : public NonNegativeMultiplier {
             if (!inside_patch(basis.entities()[l], corner(e)) || at < 0) continue;
             for (int b = 0; b < n; ++b) {
               double sum = 0;
-              for (int r = 0; r < n; ++r)
-                for (int v = 0; v < n; ++v) sum += tested[l * n + r] * from_lattice[r * n + v] * at_lattice[v * n + b];
+              for (int v = 0; v < n; ++v) sum += tested_at_lattice[l * n + v] * at_lattice[v * n + b];
               A[(at - first) * n + b] += metric(k).det * sum;
             }
           }
@@ -362,6 +370,38 @@ class PatchwiseMultiplier final : public NonNegativeMultiplier {
     data_.fit = to_view("thixis::equilibration::fit", fit);
     data_.weight = to_view("thixis::equilibration::patch_weight", weight);
     data_.diameter = to_view("thixis::equilibration::patch_diameter", diameter);
+  }
+
+  /// The mean of lambda in a cell is that of the values moment / (1, psi_l) of its free functions, with weights (1, psi_l)_K: exact for
+  /// constants next to the held boundary and between cells of different sizes, too.
+  void set_up_means() {
+    const auto& basis = space_.basis();
+    const auto entries = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), space_.coefficients().element_entries);
+    const auto column = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), space_.numbering().column_of_entry);
+    const auto metric = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), metric_);
+    const auto cells = static_cast<LocalIndex>(metric.extent(0));
+    const double least = 1e-3 / basis.size();  // functions without a mean say nothing about that of lambda
+    algebra::Vector integral(space_.map());
+    {
+      const auto out = algebra::host_view(integral);
+      for (LocalIndex k = 0; k < cells; ++k)
+        for (int l = 0; l < basis.size(); ++l)
+          if (const LocalIndex row = column(entries(k, l)); row >= 0 && row < static_cast<LocalIndex>(out.extent(0)))
+            out(row) += metric(k).det * basis.integrals()[l];
+    }
+    of_mean_ = CellTable("thixis::equilibration::of_mean", cells, basis.size());
+    const CellTable shared("thixis::equilibration::shared_integrals", cells, basis.size());
+    space_.share(integral, shared);
+    const auto host = Kokkos::create_mirror_view(of_mean_);
+    const auto part = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), shared);
+    for (LocalIndex k = 0; k < cells; ++k) {
+      double known = 0;
+      for (int l = 0; l < basis.size(); ++l)
+        if (part(k, l) > 0 && basis.integrals()[l] > least) known += basis.integrals()[l];
+      for (int l = 0; l < basis.size(); ++l)
+        if (part(k, l) > 0 && basis.integrals()[l] > least) host(k, l) = basis.integrals()[l] / known / part(k, l);
+    }
+    Kokkos::deep_copy(of_mean_, host);
   }
 
   template <class T>
@@ -408,7 +448,7 @@ class PatchwiseMultiplier final : public NonNegativeMultiplier {
   VertexPatches patches_;
   View<LocalIndex*> patch_of_vertex_;
   View<double*> mean_, cell_mean_;
-  CellTable shared_;
+  CellTable shared_, of_mean_;
   Fits data_;
   Matrix lattice_, from_lattice_, hat_integral_, constant_;
   Kokkos::View<const double***, Kokkos::LayoutRight> hat_modal_;

@@ -11,6 +11,7 @@
 #include "thixis/core/error.hpp"
 #include "thixis/core/timer.hpp"
 #include "thixis/equilibration/guaranteed_bound.hpp"
+#include "thixis/equilibration/published_bound.hpp"
 
 namespace thixis::models {
 namespace {
@@ -139,20 +140,8 @@ class MembraneDiscretization final : public Discretization {
       const core::Region region("estimate set-up");
       bound_ = std::make_unique<equilibration::GuaranteedBound>(polynomials(), contact_problem(), hierarchy_, level_);
     }
-    const Fields x = fields(X);
-    Vector R(problem_->map()), gap_l(problem_->points());
-    problem_->equations(X, R);
-    Fields r = fields(R);
-    r.u.scale(-1);
-    gap(problem_->membranes(), x.u, gap_l);
-    equilibration::Iterate iterate;
-    iterate.lambda = &x.lambda;
-    iterate.gap = &gap_l;
-    const auto residual0 = r.u.getVector(0), residual1 = r.u.getVector(scene_.count - 1);
-    iterate.residual[0] = residual0.get();
-    iterate.residual[1] = residual1.get();
-    for (int alpha = 0; alpha < scene_.count; ++alpha) iterate.u[alpha] = membrane(x, alpha);
-    return (*bound_)(iterate);
+    const Seen seen(*this, X);
+    return (*bound_)(seen.iterate);
   }
 
   CellEstimates cell_estimates() const override {
@@ -166,7 +155,25 @@ class MembraneDiscretization final : public Discretization {
     return {copy(parts.discretization), copy(parts.linearization), copy(parts.algebraic)};
   }
 
-  std::optional<PublishedEstimate> published_estimate(const Vector&) override { return std::nullopt; }
+  std::size_t bytes_of_estimate() const override { return bound_ ? bound_->bytes() : 0; }
+
+  std::optional<PublishedEstimate> published_estimate(const Vector& X, std::optional<double> friedrichs) override {
+    if (!polynomials().conforming()) return std::nullopt;
+    const Boundary boundary = boundary_of(scene_, space_->mesh());
+    const bool held = std::all_of(boundary.dirichlet.begin(), boundary.dirichlet.end(), [](bool dirichlet) { return dirichlet; });
+    if (!friedrichs && !held) return std::nullopt;
+    const double C = friedrichs ? *friedrichs : equilibration::friedrichs_of_box(space_->mesh());
+    const Seen seen(*this, X);
+    const Coefficients gap = difference(seen.iterate.u[0], scene_.count == 2 ? seen.iterate.u[1] : obstacle_);
+    const auto bound = equilibration::published_bound(polynomials(), contact_problem(), hierarchy_, level_, seen.iterate, gap, C);
+    return PublishedEstimate{bound.parts,
+                             {{"flux", bound.flux},
+                              {"residual", bound.residual},
+                              {"contact", bound.contact},
+                              {"nonconformity_1", bound.nonconformity[0]},
+                              {"nonconformity_2", bound.nonconformity[1]},
+                              {"nonconformity_3", bound.nonconformity[2]}}};
+  }
 
   complementarity::KktData kkt_data(const Vector& X) const override {
     MembraneSolution solution{scene_, *space_, *problem_, body_, fields(X), {}};
@@ -208,6 +215,31 @@ class MembraneDiscretization final : public Discretization {
   Fields fields() const { return Fields(problem_->membranes()); }
   Fields fields(const Vector& X) const { return Fields(problem_->membranes(), X); }
   Coefficients membrane(const Fields& x, int alpha) const { return space_->complete(*x.u.getVector(alpha), lift_[alpha]); }
+
+  /// X with what the bounds read of it.
+  struct Seen {
+    Fields x, r;
+    Vector gap_l;
+    Teuchos::RCP<const Vector> residual[2];
+    equilibration::Iterate iterate;
+
+    Seen(const MembraneDiscretization& of, const Vector& X) : x(of.fields(X)), r(of.fields()), gap_l(of.problem_->points()) {
+      Vector R(of.problem_->map());
+      of.problem_->equations(X, R);
+      split(R, r);
+      r.u.scale(-1);
+      gap(of.problem_->membranes(), x.u, gap_l);
+      iterate.lambda = &x.lambda;
+      iterate.gap = &gap_l;
+      for (int alpha = 0; alpha < of.scene_.count; ++alpha) {
+        iterate.u[alpha] = of.membrane(x, alpha);
+        residual[alpha] = r.u.getVector(alpha);
+        iterate.residual[alpha] = residual[alpha].get();
+      }
+    }
+    Seen(const Seen&) = delete;
+    Seen& operator=(const Seen&) = delete;
+  };
 
   const method::PolynomialSpace& polynomials() const { return dynamic_cast<const method::PolynomialSpace&>(*space_); }
 

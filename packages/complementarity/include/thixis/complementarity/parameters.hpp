@@ -48,6 +48,7 @@ struct StoppingParams {
   double inexact_factor = 0.3;   ///< alpha
   std::optional<bool> estimate;  ///< not given: only where rule, target or adaptivity need it
   std::optional<double> target;
+  std::optional<double> friedrichs;  ///< h_Omega C_PF of the bound of the literature; not given: that of the box around the domain
   static const core::Schema<StoppingParams>& schema();
 };
 

@@ -36,7 +36,7 @@ enum class Marking { dorfler, uniform };
 struct AdaptParams {
   Marking marking = Marking::dorfler;
   double theta = 0.5;
-  int max_levels = 30;               ///< beyond the meshes of the deck
+  int max_levels = 100;              ///< beyond the meshes of the deck
   long long max_unknowns = 1000000;  ///< all fields with the multiplier
   static const core::Schema<AdaptParams>& schema();
 };

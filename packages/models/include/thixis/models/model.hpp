@@ -26,7 +26,7 @@ struct CellEstimates {
   std::vector<double> discretization, linearization, algebraic;
 };
 
-/// The bound of the literature (docs/methods/estimates.md, 6) with all its terms by name.
+/// The bound of the literature (docs/methods/estimates.md, 7) with all its terms by name.
 struct PublishedEstimate {
   complementarity::Estimate parts;
   std::vector<std::pair<std::string, double>> terms;
@@ -58,8 +58,11 @@ class Discretization {
   virtual complementarity::Estimate estimate(const algebra::Vector& X) = 0;
   /// Of the last call of `estimate`.
   virtual CellEstimates cell_estimates() const = 0;
-  /// Nothing where the literature has no such bound. Collective.
-  virtual std::optional<PublishedEstimate> published_estimate(const algebra::Vector& X) = 0;
+  /// What is held for them on this rank; 0 before the first.
+  virtual std::size_t bytes_of_estimate() const { return 0; }
+  /// Nothing where the literature has no such bound. `friedrichs`: C in |v| <= C |grad v|; not given: that of the box around the domain,
+  /// where the whole boundary is held, else nothing. Collective.
+  virtual std::optional<PublishedEstimate> published_estimate(const algebra::Vector& X, std::optional<double> friedrichs) = 0;
   /// Everything the verifier needs, recomputed from X cell by cell.
   virtual complementarity::KktData kkt_data(const algebra::Vector& X) const = 0;
   /// What fields are shown on.
