@@ -175,6 +175,7 @@ const std::vector<Setting>& settings() {
     std::vector<Setting> settings;
     for (const auto name : {MethodName::fem, MethodName::dg, MethodName::hho})
       for (int p = 1; p <= 4; ++p) settings.push_back({name, p});
+    if (core::Comm().size() > 1) return settings;
     settings.push_back({MethodName::fem, 2, Nodes::bernstein});
     settings.push_back({MethodName::fem, 3, Nodes::bernstein});
     settings.push_back({MethodName::fem, 4, Nodes::equispaced});
