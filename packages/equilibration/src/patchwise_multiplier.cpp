@@ -51,10 +51,10 @@ struct FitPatch {
   Matrix from_lattice;                                           ///< (b, b)
   Matrix hat_integral;                                           ///< (i, b): ∫ lambda_i B_b
   Kokkos::View<const double***, Kokkos::LayoutRight> hat_modal;  ///< (i, m, b): ∫ lambda_i B_b phi_m
-  View<const double*> moment;     ///< of entries, 0 where there is none
+  View<const double*> moment;                                    ///< of entries, 0 where there is none
   View<const double*> cell_mean;  ///< of lambda, from the moments of the free functions; -1 where there is none
-  CellTable patch;                                               ///< out, overwritten
-  View<double*> mean;                                            ///< out: of L_a; -1 where no function is free
+  CellTable patch;                ///< out, overwritten
+  View<double*> mean;             ///< out: of L_a; -1 where no function is free
 
   KOKKOS_FUNCTION void operator()(int a) const {
     const int n = from_lattice.extent_int(0), modes = hat_modal.extent_int(1);
