@@ -14,8 +14,9 @@ namespace thixis::equilibration {
 namespace {
 
 constexpr int degree_of_v = 4;
-constexpr int rows = 3;                                  ///< of cells; each step inwards costs and gains less
-constexpr int order = 2 * BoundaryLift::resolution + 4;  ///< exact for |grad l|²
+constexpr int rows = 3;                                ///< of cells; each step inwards costs and gains less
+constexpr double tolerance = 1e-6;                     ///< any v will do, the best is wanted: its energy is met to the square of this
+constexpr int order = 2 * LiftInCell::resolution + 4;  ///< exact for |grad l|²
 
 View<const LocalIndex*> to_view(const char* label, const std::vector<LocalIndex>& values) {
   const View<LocalIndex*> view(std::string(label), values.size());
@@ -25,24 +26,60 @@ View<const LocalIndex*> to_view(const char* label, const std::vector<LocalIndex>
   return view;
 }
 
-/// sum_j q_j L_j(s) and its derivative, L_j orthonormal on [0,1].
-std::array<double, 2> series(const std::array<double, BoundaryLift::resolution + 1>& q, double s) {
-  const double x = 2 * s - 1;
-  double P[3] = {0, 1, x}, dP[3] = {0, 0, 1}, value = q[0], slope = 0;  // of degrees j-2, j-1, j
-  for (int j = 1; j <= BoundaryLift::resolution; ++j) {
-    if (j > 1) {
-      P[2] = ((2 * j - 1) * x * P[1] - (j - 1) * P[0]) / j;
-      dP[2] = dP[0] + (2 * j - 1) * P[1];
-    }
-    const double norm = std::sqrt(2.0 * j + 1);
-    value += q[j] * norm * P[2];
-    slope += 2 * q[j] * norm * dP[2];
-    for (int i = 0; i < 2; ++i) {
-      P[i] = P[i + 1];
-      dP[i] = dP[i + 1];
+/// Rules for the layer, with what is known at their points.
+struct Rule {
+  method::CellQuadrature quadrature;
+  Tension mu;
+  LiftTable table;
+
+  Rule(const mesh::Mesh& mesh, const View<const LocalIndex*>& cells, int exact, const reference::Bernstein& of_v,
+       const std::array<scene::FieldPtr, 2>& tension, int count)
+      : quadrature(method::make_quadrature(mesh, cells, exact, nullptr)), table(of_v, quadrature.rule_xi) {
+    for (int alpha = 0; alpha < count; ++alpha)
+      if (const double* constant = tension[alpha]->constant()) mu.constant[alpha] = *constant;
+      else mu.at_points[alpha] = method::tension_at_points(mesh, quadrature, *tension[alpha]);
+  }
+};
+
+/// Makes of the derivatives of L in xi, eta at the points of cell k the weights f with (mu grad L, grad w)_K = sum_q f_1 ∂w/∂xi + f_2
+/// ∂w/∂eta; returns |||L|||²_K.
+double weigh(const Rule& rule, int alpha, LocalIndex k, const mesh::CellGeometry& K, std::vector<double> (&L)[3]) {
+  const PointsOf points(rule.quadrature, k);
+  const auto dot = [&](int a, int b) { return K.gradient[a][0] * K.gradient[b][0] + K.gradient[a][1] * K.gradient[b][1]; };
+  const double G11 = dot(1, 1), G12 = dot(1, 2), G22 = dot(2, 2);
+  double energy = 0;
+  for (int q = 0; q < points.count; ++q) {
+    const double weight = 2 * K.area * points.weight(q) * rule.mu(alpha, points.first + q), xi = L[1][q], eta = L[2][q];
+    L[1][q] = weight * (G11 * xi + G12 * eta);
+    L[2][q] = weight * (G12 * xi + G22 * eta);
+    energy += L[1][q] * xi + L[2][q] * eta;
+  }
+  return energy;
+}
+
+/// (point, k): derivatives of Bernstein polynomials in xi, eta.
+std::array<std::vector<double>, 2> derivatives(const reference::Bernstein& B, const View<const double* [2]>& points) {
+  std::array<std::vector<double>, 2> table;
+  const auto at = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), points);
+  for (std::size_t q = 0; q < at.extent(0); ++q) {
+    const double lambda[3] = {1 - at(q, 0) - at(q, 1), at(q, 0), at(q, 1)};
+    double dB[reference::max_functions][3];
+    B.derivatives(lambda, dB);
+    for (int d = 0; d < 2; ++d)
+      for (int k = 0; k < B.size; ++k) table[d].push_back(dB[k][1 + d] - dB[k][0]);
+  }
+  return table;
+}
+
+/// sum[k] += factor sum_q f_1(q) ∂B_k/∂xi + f_2(q) ∂B_k/∂eta.
+void add_products(double factor, const std::vector<double> (&f)[3], const std::array<std::vector<double>, 2>& dB, int n, double* sum) {
+  for (int d = 0; d < 2; ++d) {
+    const double* row = dB[d].data();
+    for (const double weight : f[1 + d]) {
+      for (int k = 0; k < n; ++k) sum[k] += factor * weight * row[k];
+      row += n;
     }
   }
-  return {value, slope};
 }
 
 }  // namespace
@@ -56,7 +93,7 @@ BoundaryLift::BoundaryLift(const method::PolynomialSpace& space, const Continuou
   comm.together([&] { find_faces(nodes, boundary, held); });
   empty_ = !comm.any(!empty_);
   if (empty_) {
-    blends_ = {};
+    boundary_ = {};
     return;
   }
   find_layer();
@@ -66,7 +103,7 @@ BoundaryLift::BoundaryLift(const method::PolynomialSpace& space, const Continuou
 
 void BoundaryLift::find_faces(const ContinuousNodes& nodes, const std::array<method::BoundaryValues, 2>& boundary,
                               const std::vector<double> (&held)[2]) {
-  const auto rule = reference::line_quadrature(2 * resolution + 8);
+  const auto rule = reference::line_quadrature(2 * LiftInCell::resolution + 8);
   const int points = rule.size(), n = space_.basis().size();
   const auto of_cells = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), nodes.of_cells);
   const auto cells = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), space_.cells());
@@ -80,11 +117,10 @@ void BoundaryLift::find_faces(const ContinuousNodes& nodes, const std::array<met
     trace[i] = space_.basis().tabulate(points, at.data());
   }
   for (const double s : rule.point)
-    for (const double value : reference::legendre(resolution + 1, s)) legendre.push_back(value);
+    for (const double value : reference::legendre(LiftInCell::resolution + 1, s)) legendre.push_back(value);
 
-  blends_.resize(cells.extent(0));
   double largest = 0, size = 0;
-  std::vector<double> x(points), y(points), g(points);
+  std::vector<double> x(points), y(points), g(points), difference(points);
   for (std::size_t k = 0; k < cells.extent(0); ++k)
     for (int i = 0; i < 3; ++i) {
       const LocalIndex tag = host_.face_tag(host_.cell_faces(cells(k), i));
@@ -95,10 +131,16 @@ void BoundaryLift::find_faces(const ContinuousNodes& nodes, const std::array<met
         x[q] = (1 - s) * host_.coordinates(a, 0) + s * host_.coordinates(b, 0);
         y[q] = (1 - s) * host_.coordinates(a, 1) + s * host_.coordinates(b, 1);
       }
-      Blend blend{i, {}, 0};
-      std::vector<double> difference(points, 0.0);
+      if (boundary_.empty() || boundary_.back().position != static_cast<LocalIndex>(k))
+        boundary_.push_back({static_cast<LocalIndex>(k), {}, 0});
+      OnBoundary& cell = boundary_.back();
+      std::fill(difference.begin(), difference.end(), 0.0);
       for (int alpha = 0; alpha < count_; ++alpha) {
         boundary[alpha].dirichlet[tag]->evaluate({x.size(), x.data(), y.data()}, 0, g.data());
+        LiftInCell& lift = cell.l[alpha];
+        LiftInCell::Series& coefficient = lift.q[lift.faces];
+        coefficient = {};
+        lift.face[lift.faces++] = i;
         for (int q = 0; q < points; ++q) {
           double delta = g[q];
           for (int l = 0; l < n; ++l) delta -= trace[i].value[q * n + l] * held[alpha][of_cells(k, l)];
@@ -106,11 +148,13 @@ void BoundaryLift::find_faces(const ContinuousNodes& nodes, const std::array<met
           size = std::max(size, std::abs(g[q]));
           difference[q] += alpha == 0 ? delta : -delta;
           const double s = rule.point[q], quotient = delta / (s * (1 - s));
-          for (int j = 0; j <= resolution; ++j) blend.q[alpha][j] += rule.weight[q] * quotient * legendre[q * (resolution + 1) + j];
+          for (int j = 0; j <= LiftInCell::resolution; ++j)
+            coefficient[j] += rule.weight[q] * quotient * legendre[q * (LiftInCell::resolution + 1) + j];
         }
       }
-      for (const double d : difference) blend.difference = std::max(blend.difference, std::abs(d));
-      blends_[k].push_back(blend);
+      double most = 0;
+      for (const double d : difference) most = std::max(most, std::abs(d));
+      cell.difference += most;
     }
   empty_ = largest <= 1e-13 * size;
 }
@@ -144,52 +188,56 @@ void BoundaryLift::find_layer() {
   }
   const auto in = algebra::host_view(std::as_const(touches_all));
   std::vector<LocalIndex> layer, owned;
-  std::vector<std::vector<Blend>> blends;
+  auto next = boundary_.begin();
   for (std::size_t k = 0; k < cells.extent(0); ++k) {
     if (in(k) == 0) continue;
+    const bool on_boundary = next != boundary_.end() && next->position == static_cast<LocalIndex>(k);
+    for (int alpha = 0; alpha < 2; ++alpha) lift_[alpha].push_back(on_boundary ? next->l[alpha] : LiftInCell());
+    difference_.push_back(on_boundary ? next->difference : 0);
+    if (on_boundary) ++next;
     layer.push_back(cells(k));
-    blends.push_back(std::move(blends_[k]));
     if (cells(k) < mesh.owned_cells) owned.push_back(cells(k));
   }
-  blends_ = std::move(blends);
+  boundary_ = {};
   layer_ = to_view("thixis::equilibration::layer", layer);
   owned_ = to_view("thixis::equilibration::owned_layer", owned);
 }
 
-BoundaryLift::Value BoundaryLift::blended(int alpha, LocalIndex place, double xi, double eta) const {
-  Value sum;
-  if (blends_[place].empty()) return sum;
-  const auto K = mesh::cell_geometry(host_.coordinates, host_.cell_vertices, layer_(place));
-  const double lambda[3] = {1 - xi - eta, xi, eta};
-  for (const Blend& blend : blends_[place]) {
-    const int i = blend.face, j = (i + 1) % 3, k = (i + 2) % 3;
-    const auto [q, slope] = series(blend.q[alpha], lambda[k] + 0.5 * lambda[i]);
-    sum.value += lambda[j] * lambda[k] * q;
-    for (int d = 0; d < 2; ++d)
-      sum.gradient[d] += (K.gradient[j][d] * lambda[k] + lambda[j] * K.gradient[k][d]) * q +
-                         lambda[j] * lambda[k] * slope * (K.gradient[k][d] + 0.5 * K.gradient[i][d]);
-  }
-  return sum;
-}
-
 BoundaryLift::Value BoundaryLift::operator()(int alpha, LocalIndex place, double xi, double eta) const {
-  Value sum = blended(alpha, place, xi, eta);
   const auto K = mesh::cell_geometry(host_.coordinates, host_.cell_vertices, layer_(place));
-  const double lambda[3] = {1 - xi - eta, xi, eta}, *const c = v_[alpha][place].data();
+  const LiftInCell& lift = lift_[alpha][place];
+  const double lambda[3] = {1 - xi - eta, xi, eta};
   double slope[3];
-  sum.value += basis_.bernstein().value(c, lambda);
-  basis_.bernstein().gradient(c, lambda, slope);
+  Value sum;
+  sum.value = basis_.bernstein().value(lift.v.data(), lambda);
+  basis_.bernstein().gradient(lift.v.data(), lambda, slope);
+  for (int f = 0; f < lift.faces; ++f) {
+    const int i = lift.face[f], j = (i + 1) % 3, k = (i + 2) % 3;
+    const auto [q, dq] = series(lift.q[f], lambda[k] + 0.5 * lambda[i]);
+    sum.value += lambda[j] * lambda[k] * q;
+    slope[i] += 0.5 * lambda[j] * lambda[k] * dq;
+    slope[j] += lambda[k] * q;
+    slope[k] += lambda[j] * q + lambda[j] * lambda[k] * dq;
+  }
   for (int a = 0; a < 3; ++a)
     for (int d = 0; d < 2; ++d) sum.gradient[d] += slope[a] * K.gradient[a][d];
   return sum;
 }
 
+LiftInCell BoundaryLift::difference(LocalIndex place) const {
+  LiftInCell difference = lift_[0][place];
+  if (count_ == 1) return difference;
+  const LiftInCell& lower = lift_[1][place];
+  for (std::size_t k = 0; k < lower.v.size(); ++k) difference.v[k] -= lower.v[k];
+  for (int f = 0; f < lower.faces; ++f)
+    for (std::size_t j = 0; j < lower.q[f].size(); ++j) difference.q[f][j] -= lower.q[f][j];
+  return difference;
+}
+
 double BoundaryLift::bound_of_difference(LocalIndex place) const {
-  double bound = 0, most = 0;
-  for (const Blend& blend : blends_[place]) bound += 1.1 * blend.difference;  // seen at points only
-  for (std::size_t k = 0; k < v_[0][place].size(); ++k)
-    most = std::max(most, std::abs(v_[0][place][k] - (count_ == 2 ? v_[1][place][k] : 0)));
-  return bound + most;
+  double most = 0;
+  for (const double v : difference(place).v) most = std::max(most, std::abs(v));
+  return 1.1 * difference_[place] + most;  // on faces it was seen at points only
 }
 
 /// (mu grad v, grad w) = -(mu grad l, grad w) for all w like v.
@@ -223,96 +271,76 @@ void BoundaryLift::minimise(const std::array<scene::FieldPtr, 2>& tension) {
   for (std::size_t k = 0; k < layer_.extent(0); ++k)
     for (int l = 0; l < n; ++l) elements(k, l) = numbering.column_of_entry(of_cells(k, l));
   const auto graph = method::make_graph(numbering.rows, numbering.columns, elements);
-  const method::CellQuadrature quadrature = method::make_quadrature(mesh, layer_, order, nullptr);
-
+  // v does not depend on constant tensions
+  const bool constant = tension[0]->constant() && (count_ == 1 || tension[1]->constant());
+  const std::array<scene::FieldPtr, 2> mu = constant ? std::array<scene::FieldPtr, 2>{scene::constant(1), scene::constant(1)} : tension;
+  const Rule rule(mesh, layer_, order, basis_.bernstein(), mu, count_);
+  const method::CellQuadrature of_v = method::make_quadrature(mesh, layer_, 2 * degree_of_v, nullptr);
+  const auto dB = derivatives(basis_.bernstein(), rule.quadrature.rule_xi);
+  const LocalIndex count = layer_.extent_int(0);
+  algebra::LinearParams cg;
+  cg.solver = algebra::SolverKind::cg;
+  cg.preconditioner = algebra::PreconditionerKind::ilu;
+  algebra::Solver solver(cg);
+  std::vector<double> l[3];
   for (int alpha = 0; alpha < count_; ++alpha) {
-    auto A = Teuchos::rcp(new algebra::Matrix(graph));
-    A->fillComplete();
-    const auto form = method::gradient_form(mesh, quadrature, basis_, *tension[alpha]);
-    const LocalIndex count = layer_.extent_int(0), most = std::min(method::cells_per_block(n), count);
-    const method::LocalMatrices local("thixis::equilibration::lift_matrices", most, n, n);
-    for (LocalIndex first = 0; first < count; first += most) {
-      const method::LocalMatrices block = Kokkos::subview(local, std::pair(0, std::min(most, count - first)), Kokkos::ALL, Kokkos::ALL);
-      form->matrices(first, block);
-      method::scatter(elements, first, block, *A);
+    if (alpha == 0 || !constant) {
+      const auto A = Teuchos::rcp(new algebra::Matrix(graph));
+      A->fillComplete();
+      const auto form = method::gradient_form(mesh, of_v, basis_, *mu[alpha]);
+      const LocalIndex most = std::min(method::cells_per_block(n), count);
+      const method::LocalMatrices local("thixis::equilibration::lift_matrices", most, n, n);
+      for (LocalIndex first = 0; first < count; first += most) {
+        const method::LocalMatrices block = Kokkos::subview(local, std::pair(0, std::min(most, count - first)), Kokkos::ALL, Kokkos::ALL);
+        form->matrices(first, block);
+        method::scatter(elements, first, block, *A);
+      }
+      solver.set_matrix(A, 1, Teuchos::null);
     }
     const CellTable moments("thixis::equilibration::lift_moments", count, n);
-    View<double*> mu;
-    const double* const constant = tension[alpha]->constant();
-    if (!constant) mu = method::tension_at_points(mesh, quadrature, *tension[alpha]);
     for (LocalIndex k = 0; k < count; ++k) {
-      if (blends_[k].empty()) continue;
-      const auto K = mesh::cell_geometry(host_.coordinates, host_.cell_vertices, layer_(k));
-      const PointsOf points(quadrature, k);
-      for (int q = 0; q < points.count; ++q) {
-        const double xi = points.xi(q, 0), eta = points.xi(q, 1), lambda[3] = {1 - xi - eta, xi, eta};
-        const double weight = 2 * K.area * points.weight(q) * (constant ? *constant : mu(points.first + q));
-        const Value l = blended(alpha, k, xi, eta);
-        double dB[reference::max_functions][3];
-        basis_.bernstein().derivatives(lambda, dB);
-        for (int m = 0; m < n; ++m)
-          for (int a = 0; a < 3; ++a)
-            moments(k, m) -= weight * dB[m][a] * (l.gradient[0] * K.gradient[a][0] + l.gradient[1] * K.gradient[a][1]);
-      }
+      if (lift_[alpha][k].faces == 0) continue;
+      rule.table.evaluate(lift_[alpha][k], l);
+      weigh(rule, alpha, k, mesh::cell_geometry(host_.coordinates, host_.cell_vertices, layer_(k)), l);
+      add_products(-1, l, dB, n, &moments(k, 0));
     }
     algebra::Vector b(numbering.rows), x(numbering.rows);
     method::scatter(elements, 0, moments, b);
     algebra::LinearStop stop;
-    stop.tolerance = 1e-10 * b.norm2();
-    if (stop.tolerance > 0) {
-      algebra::LinearParams cg;
-      cg.solver = algebra::SolverKind::cg;
-      cg.preconditioner = algebra::PreconditionerKind::ilu;
-      algebra::Solver solver(cg);
-      solver.set_matrix(A, 1, Teuchos::null);
-      solver.solve(b, x, stop);  // any v will do, the best is wanted
-    }
+    stop.tolerance = tolerance * b.norm2();
+    if (stop.tolerance > 0) solver.solve(b, x, stop);
     algebra::Vector ghosted(numbering.columns);
     const auto import = graph->getImporter();
     if (import.is_null()) ghosted.assign(x);
     else ghosted.doImport(x, *import, Tpetra::INSERT);
     const auto in = algebra::host_view(std::as_const(ghosted));
-    v_[alpha].assign(owned_.extent(0), std::vector<double>(n, 0.0));
     for (std::size_t k = 0; k < owned_.extent(0); ++k)
-      for (int l = 0; l < n; ++l)
-        if (elements(k, l) >= 0) v_[alpha][k][l] = in(elements(k, l));
+      for (int i = 0; i < n; ++i)
+        if (elements(k, i) >= 0) lift_[alpha][k].v[i] = in(elements(k, i));
   }
 }
 
 void BoundaryLift::integrate(const std::array<scene::FieldPtr, 2>& tension) {
   const mesh::Mesh& mesh = space_.mesh();
   const reference::Bernstein& B = space_.basis().bernstein();
-  const method::CellQuadrature of_blends = method::make_quadrature(mesh, owned_, order, nullptr),
-                               of_v = method::make_quadrature(mesh, owned_, 2 * degree_of_v, nullptr);
+  const Rule of_faces(mesh, owned_, order, basis_.bernstein(), tension, count_),
+      inside(mesh, owned_, 2 * degree_of_v, basis_.bernstein(), tension, count_);
+  const auto dB_of_faces = derivatives(B, of_faces.quadrature.rule_xi), dB_inside = derivatives(B, inside.quadrature.rule_xi);
   const View<LocalIndex*> place("thixis::equilibration::place_in_layer", mesh.owned_cells);
   Kokkos::deep_copy(place, -1);
   const View<double* [2]> energy("thixis::equilibration::lift_energy", owned_.extent(0));
   const Kokkos::View<double***, Kokkos::LayoutRight> products("thixis::equilibration::lift_products", owned_.extent(0), 2, B.size);
   double sum = 0;
-  for (int alpha = 0; alpha < count_; ++alpha) {
-    View<double*> mu_of_blends, mu_of_v;
-    const double* const constant = tension[alpha]->constant();
-    if (!constant) {
-      mu_of_blends = method::tension_at_points(mesh, of_blends, *tension[alpha]);
-      mu_of_v = method::tension_at_points(mesh, of_v, *tension[alpha]);
-    }
-    for (std::size_t k = 0; k < owned_.extent(0); ++k) {
-      place(owned_(k)) = static_cast<LocalIndex>(k);
-      const auto K = mesh::cell_geometry(host_.coordinates, host_.cell_vertices, owned_(k));
-      const bool blended_here = !blends_[k].empty();
-      const PointsOf points(blended_here ? of_blends : of_v, static_cast<LocalIndex>(k));
-      const auto& mu = blended_here ? mu_of_blends : mu_of_v;
-      for (int q = 0; q < points.count; ++q) {
-        const double xi = points.xi(q, 0), eta = points.xi(q, 1), lambda[3] = {1 - xi - eta, xi, eta};
-        const double weight = 2 * K.area * points.weight(q) * (constant ? *constant : mu(points.first + q));
-        const Value L = (*this)(alpha, static_cast<LocalIndex>(k), xi, eta);
-        energy(k, alpha) += weight * (L.gradient[0] * L.gradient[0] + L.gradient[1] * L.gradient[1]);
-        double dB[reference::max_functions][3];
-        B.derivatives(lambda, dB);
-        for (int m = 0; m < B.size; ++m)
-          for (int a = 0; a < 3; ++a)
-            products(k, alpha, m) += weight * dB[m][a] * (L.gradient[0] * K.gradient[a][0] + L.gradient[1] * K.gradient[a][1]);
-      }
+  std::vector<double> L[3];
+  for (LocalIndex k = 0; k < owned_.extent_int(0); ++k) {
+    place(owned_(k)) = k;
+    const auto K = mesh::cell_geometry(host_.coordinates, host_.cell_vertices, owned_(k));
+    for (int alpha = 0; alpha < count_; ++alpha) {
+      const bool on_face = lift_[alpha][k].faces > 0;
+      const Rule& rule = on_face ? of_faces : inside;
+      rule.table.evaluate(lift_[alpha][k], L);
+      energy(k, alpha) = weigh(rule, alpha, k, K, L);
+      add_products(1, L, on_face ? dB_of_faces : dB_inside, B.size, &products(k, alpha, 0));
       sum += energy(k, alpha);
     }
   }

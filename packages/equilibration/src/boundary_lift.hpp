@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "feasible_kernel.hpp"
+#include "lift_tables.hpp"
 
 namespace thixis::equilibration {
 
@@ -11,14 +12,12 @@ namespace thixis::equilibration {
 ///
 ///     l(x) = lambda_j lambda_k q(lambda_k + lambda_i/2),     delta(s) = s (1 - s) q(s),  s from j to k,
 ///
-/// which is delta on the face and vanishes on the others; q a polynomial of degree `resolution`. v is continuous, of degree 4, in the layer
-/// of three rows of cells along the held boundary (those that touch it, those that touch these, …), 0 on it and on the layer's rim, and
-/// makes the energy of L least. Bubbles alone, v = 0, cost twice the least energy; one row leaves up to 25 % over the least energy of all
-/// liftings (degree 1), three rows 2 %.
+/// which is delta on the face and vanishes on the others; q a polynomial of degree LiftInCell::resolution. v is continuous, of degree 4, in
+/// the layer of three rows of cells along the held boundary (those that touch it, those that touch these, …), 0 on it and on the layer's
+/// rim, and makes the energy of L least. Bubbles alone, v = 0, cost twice the least energy; one row leaves up to 25 % over the least energy
+/// of all liftings (degree 1), three rows 2 %.
 class BoundaryLift {
  public:
-  static constexpr int resolution = 10;
-
   /// `held`: coefficients of g_h on `nodes`. Collective.
   BoundaryLift(const method::PolynomialSpace& space, const ContinuousNodes& nodes, const std::array<scene::FieldPtr, 2>& tension,
                const std::array<method::BoundaryValues, 2>& boundary, const std::vector<double> (&held)[2], int count);
@@ -34,14 +33,17 @@ class BoundaryLift {
   };
   /// L_alpha in the owned layer cell cells()(place).
   Value operator()(int alpha, LocalIndex place, double xi, double eta) const;
+  /// L_1 - L_2 there (over an obstacle L_1), to be tabulated at many points.
+  LiftInCell difference(LocalIndex place) const;
+  LiftTable table(const View<const double* [2]>& xi) const { return LiftTable(basis_.bernstein(), xi); }
   /// Of |L_1 - L_2| in that cell.
   double bound_of_difference(LocalIndex place) const;
 
  private:
-  /// A held face of a layer cell: coefficients of q in Legendre polynomials, and the largest |delta_1 - delta_2| seen.
-  struct Blend {
-    int face;
-    std::array<double, resolution + 1> q[2];
+  /// A patch cell with held faces, and the sum over them of the largest |delta_1 - delta_2| seen.
+  struct OnBoundary {
+    LocalIndex position;
+    LiftInCell l[2];
     double difference;
   };
   void find_faces(const ContinuousNodes& nodes, const std::array<method::BoundaryValues, 2>& boundary,
@@ -49,17 +51,17 @@ class BoundaryLift {
   void find_layer();
   void minimise(const std::array<scene::FieldPtr, 2>& tension);
   void integrate(const std::array<scene::FieldPtr, 2>& tension);
-  Value blended(int alpha, LocalIndex cell, double xi, double eta) const;
 
   const method::PolynomialSpace& space_;
   mesh::HostMesh host_;
   int count_;
   bool empty_ = true;
   std::vector<bool> dirichlet_;
-  std::vector<std::vector<Blend>> blends_;  ///< of the layer cells of this rank, ghosts too
-  View<const LocalIndex*> layer_, owned_;   ///< layer cells of this rank: the owned ones first
-  reference::CellBasis basis_;              ///< of v
-  std::vector<std::vector<double>> v_[2];   ///< its Bernstein coefficients in the owned layer cells
+  std::vector<OnBoundary> boundary_;       ///< until the layer is known
+  View<const LocalIndex*> layer_, owned_;  ///< layer cells of this rank: the owned ones first
+  reference::CellBasis basis_;             ///< of v
+  std::vector<LiftInCell> lift_[2];        ///< in the layer cells; v is known in the owned ones
+  std::vector<double> difference_;         ///< in the layer cells: OnBoundary::difference
   LiftOfCells of_cells_;
   double energy_ = 0;
 };

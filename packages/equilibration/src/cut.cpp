@@ -2,6 +2,8 @@
 
 #include <array>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "thixis/core/assert.hpp"
 #include "thixis/reference/cell_basis.hpp"
@@ -139,9 +141,7 @@ Dense smallest_fluxes(const std::vector<Child>& children, int q) {
   return lift;
 }
 
-}  // namespace
-
-Cut cut(const std::vector<mesh::ChildShape>& shapes, int q) {
+Cut make_cut(const std::vector<mesh::ChildShape>& shapes, int q) {
   const reference::Modal densities(q), fluxes(q + 1);
   const int c = static_cast<int>(shapes.size()), n = densities.size(), m = fluxes.size();
   std::vector<Child> children;
@@ -169,6 +169,15 @@ Cut cut(const std::vector<mesh::ChildShape>& shapes, int q) {
   }
   if (c > 1) cut.lift = smallest_fluxes(children, q);
   return cut;
+}
+
+}  // namespace
+
+const Cut& cut(const std::vector<mesh::ChildShape>& shapes, int q) {
+  static std::map<std::pair<int, std::vector<mesh::ChildShape>>, Cut> known;
+  const auto key = std::pair(q, shapes);
+  const auto found = known.find(key);
+  return found != known.end() ? found->second : known.emplace(key, make_cut(shapes, q)).first->second;
 }
 
 }  // namespace thixis::equilibration

@@ -15,7 +15,7 @@ struct Cut {
   std::vector<double> restrict;  ///< (c 2m × 2m): flux of the cell -> the same in its children
 };
 
-/// For a cell cut into children of these shapes, which fill it.
-Cut cut(const std::vector<mesh::ChildShape>& shapes, int q);
+/// For a cell cut into children of these shapes, which fill it; made once and kept.
+const Cut& cut(const std::vector<mesh::ChildShape>& shapes, int q);
 
 }  // namespace thixis::equilibration

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "cut.hpp"
-#include "thixis/equilibration/cell_fields.hpp"
 #include "thixis/mesh/host.hpp"
 
 namespace thixis::equilibration {
@@ -46,74 +45,94 @@ mesh::Mesh refined(const mesh::Mesh& mesh, const std::vector<LocalIndex>& cells)
   return fine;
 }
 
-std::vector<double> product(const std::vector<double>& A, const double* x, int columns) {
-  std::vector<double> y(A.size() / columns, 0.0);
-  for (std::size_t i = 0; i < y.size(); ++i)
+/// y += A x.
+void add_product(const std::vector<double>& A, const double* x, int columns, double* y) {
+  const int rows = static_cast<int>(A.size()) / columns;
+  for (int i = 0; i < rows; ++i)
     for (int k = 0; k < columns; ++k) y[i] += A[i * columns + k] * x[k];
-  return y;
 }
 
 /// The smallest flux, level by level, whose divergence is what the densities of the children are beyond a polynomial of the cell.
 class Flux {
  public:
-  explicit Flux(int q) : n_(reference::dimension(q)), flux_(2 * reference::dimension(q + 1)), cut_(cut({1, 2, 3, 4}, q)) {}
-
-  /// densities [children][n] -> fluxes [children][flux]
-  std::vector<double> operator()(const std::vector<double>& densities) const {
-    std::vector<std::vector<double>> of_level(levels + 1);
-    of_level[levels] = densities;
-    for (int j = levels; j > 0; --j)
-      for (std::size_t parent = 0; parent < of_level[j].size() / (4 * n_); ++parent) {
-        const auto sum = product(cut_.sum, &of_level[j][4 * n_ * parent], 4 * n_);
-        of_level[j - 1].insert(of_level[j - 1].end(), sum.begin(), sum.end());
-      }
-    std::vector<double> sigma(flux_, 0.0);
-    for (int j = 0; j < levels; ++j) {
-      std::vector<double> finer;
-      for (std::size_t parent = 0; parent < sigma.size() / flux_; ++parent) {
-        const auto share = product(cut_.share, &of_level[j][n_ * parent], n_);
-        std::vector<double> rest(&of_level[j + 1][4 * n_ * parent], &of_level[j + 1][4 * n_ * parent] + 4 * n_);
-        for (int i = 0; i < 4 * n_; ++i) rest[i] -= share[i];
-        auto of_children = product(cut_.restrict, &sigma[flux_ * parent], flux_);
-        const auto lifted = product(cut_.lift, rest.data(), 4 * n_);
-        for (std::size_t i = 0; i < lifted.size(); ++i) of_children[i] += lifted[i];
-        finer.insert(finer.end(), of_children.begin(), of_children.end());
-      }
-      sigma = std::move(finer);
+  explicit Flux(int q) : n_(reference::dimension(q)), flux_(2 * reference::dimension(q + 1)), cut_(cut({1, 2, 3, 4}, q)) {
+    for (int j = 0; j <= levels; ++j) {
+      density_[j].resize((n_ << 2 * j));
+      sigma_[j].resize((flux_ << 2 * j));
     }
-    return sigma;
+  }
+
+  /// densities [children][n] -> fluxes [children][flux], there until the next call
+  const std::vector<double>& operator()(const double* densities) {
+    std::copy_n(densities, children * n_, density_[levels].data());
+    for (int j = levels; j-- > 0;) {
+      std::fill(density_[j].begin(), density_[j].end(), 0.0);
+      for (int parent = 0; parent < 1 << 2 * j; ++parent)
+        add_product(cut_.sum, &density_[j + 1][4 * n_ * parent], 4 * n_, &density_[j][n_ * parent]);
+    }
+    std::fill(sigma_[0].begin(), sigma_[0].end(), 0.0);
+    for (int j = 0; j < levels; ++j) {
+      std::fill(sigma_[j + 1].begin(), sigma_[j + 1].end(), 0.0);
+      for (int parent = 0; parent < 1 << 2 * j; ++parent) {
+        double *const rest = &density_[j + 1][4 * n_ * parent], *const of_children = &sigma_[j + 1][4 * flux_ * parent];
+        minus_.assign(&density_[j][n_ * parent], &density_[j][n_ * parent] + n_);
+        for (double& value : minus_) value = -value;
+        add_product(cut_.restrict, &sigma_[j][flux_ * parent], flux_, of_children);
+        rest_.assign(rest, rest + 4 * n_);
+        add_product(cut_.share, minus_.data(), n_, rest_.data());
+        add_product(cut_.lift, rest_.data(), 4 * n_, of_children);
+      }
+    }
+    return sigma_[levels];
   }
 
  private:
   int n_, flux_;
-  Cut cut_;
+  const Cut& cut_;
+  std::vector<double> density_[levels + 1], sigma_[levels + 1], minus_, rest_;
 };
+
+double longest_side(const mesh::HostMesh& host, LocalIndex K) {
+  double h = 0;
+  for (int i = 0; i < 3; ++i) {
+    const LocalIndex a = host.cell_vertices(K, i), b = host.cell_vertices(K, (i + 1) % 3);
+    h = std::max(h, std::hypot(host.coordinates(a, 0) - host.coordinates(b, 0), host.coordinates(a, 1) - host.coordinates(b, 1)));
+  }
+  return h;
+}
 
 }  // namespace
 
-void sharpen_in_cut_cells(const method::PolynomialSpace& space, int q, const scene::Field& force, const scene::FieldPtr& interface,
-                          std::vector<double>& bound) {
+CutOscillation::CutOscillation(const method::PolynomialSpace& space, int q, const scene::FieldPtr& interface)
+    : comm_(space.mesh().comm), q_(q) {
   const mesh::Mesh& mesh = space.mesh();
   const auto own = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), space.quadrature().own_rule);
-  std::vector<LocalIndex> cells;
   for (LocalIndex K = 0; K < mesh.owned_cells; ++K)
-    if (own(K) >= 0 && bound[K] > 0) cells.push_back(K);
-  if (!mesh.comm.any(!cells.empty())) return;
+    if (own(K) >= 0) cells_.push_back(K);
+  if (!comm_.any(!cells_.empty())) return;
+  fine_ = refined(mesh, cells_);
+  const auto all = method::owned_cells(fine_);
+  quadrature_ = method::make_quadrature(fine_, all, space.quadrature().order, interface);
+  metric_ = metrics(fine_, all);
+}
 
-  const mesh::Mesh fine = refined(mesh, cells);
-  const auto all = method::owned_cells(fine);
-  const auto quadrature = method::make_quadrature(fine, all, space.quadrature().order, interface);
-  const auto metric = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), metrics(fine, all));
-  const reference::Modal modal(q);
-  const int n = modal.size(), flux = 2 * reference::dimension(q + 1);
-  std::vector<double> density(static_cast<std::size_t>(fine.cells) * n, 0.0), remainder(fine.cells, 0.0);
-  const View<double*> values("thixis::equilibration::force_in_children", quadrature.largest_block);
-  mesh.comm.together([&] {
-    method::for_each_block(quadrature, [&](const method::QuadratureBlock& block) {
+void CutOscillation::sharpen(const scene::Field& force, std::vector<double>& bound) const {
+  if (!comm_.any(std::any_of(cells_.begin(), cells_.end(), [&](LocalIndex K) { return bound[K] > 0; }))) return;
+  const auto metric = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), metric_);
+  const reference::Modal modal(q_);
+  const int n = modal.size(), flux = 2 * reference::dimension(q_ + 1);
+  std::vector<double> density(static_cast<std::size_t>(fine_.cells) * n, 0.0), remainder(fine_.cells, 0.0);
+  const View<double*> values("thixis::equilibration::force_in_children", quadrature_.largest_block);
+  const auto rule_xi = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), quadrature_.rule_xi);
+  const auto at_rule = modal.values(rule_xi.extent_int(0), rule_xi.data());
+  comm_.together([&] {
+    method::for_each_block(quadrature_, [&](const method::QuadratureBlock& block) {
       method::evaluate(force, 0, block, values);
+      std::vector<double> at_own;
       for (LocalIndex c = 0; c < block.cells; ++c) {
         const int first = block.offset(c), count = block.offset(c + 1) - first;
-        const auto phi = modal.values(count, &block.xi(first, 0));
+        if (block.own_rule(c) >= 0) at_own = modal.values(count, &block.xi(first, 0));
+        const double* const phi = block.own_rule(c) >= 0 ? at_own.data() : at_rule.data();
         double* const coefficient = &density[static_cast<std::size_t>(block.first + c) * n];
         for (int i = 0; i < count; ++i)
           for (int m = 0; m < n; ++m) coefficient[m] += block.weight(first + i) * values(first + i) * phi[i * n + m];
@@ -126,22 +145,17 @@ void sharpen_in_cut_cells(const method::PolynomialSpace& space, int q, const sce
     });
   });
 
-  const Flux smallest(q);
-  const auto coordinates = mesh::on_host(fine).coordinates;
-  for (std::size_t k = 0; k < cells.size(); ++k) {
-    const auto first = static_cast<std::size_t>(children) * k;
-    const auto sigma = smallest({&density[first * n], &density[first * n] + children * n});
+  Flux smallest(q_);
+  const auto host = mesh::on_host(fine_);
+  for (std::size_t k = 0; k < cells_.size(); ++k) {
+    const auto first = static_cast<LocalIndex>(children * k);
+    const auto& sigma = smallest(&density[static_cast<std::size_t>(first) * n]);
     double square = 0, rest = 0;
     for (int c = 0; c < children; ++c) {
       square += metric(first + c).square(&sigma[c * flux], &sigma[c * flux + flux / 2], flux / 2);
-      double h = 0;
-      for (int i = 0; i < 3; ++i) {
-        const std::size_t a = 3 * (first + c) + i, b = 3 * (first + c) + (i + 1) % 3;
-        h = std::max(h, std::hypot(coordinates(a, 0) - coordinates(b, 0), coordinates(a, 1) - coordinates(b, 1)));
-      }
-      rest += h * h * poincare * poincare * remainder[first + c];
+      rest += std::pow(poincare * longest_side(host, first + c), 2) * remainder[first + c];
     }
-    bound[cells[k]] = std::min(bound[cells[k]], std::sqrt(std::max(square, 0.0)) + std::sqrt(rest));
+    bound[cells_[k]] = std::min(bound[cells_[k]], std::sqrt(std::max(square, 0.0)) + std::sqrt(rest));
   }
 }
 

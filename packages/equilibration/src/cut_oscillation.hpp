@@ -1,6 +1,7 @@
 #pragma once
 #include <vector>
 
+#include "thixis/equilibration/cell_fields.hpp"
 #include "thixis/method/polynomial_space.hpp"
 
 namespace thixis::equilibration {
@@ -14,8 +15,20 @@ constexpr double poincare = 1 / 3.831705970207512;
 ///
 ///     |sigma|_K + (sum_c (h_c/j)² |f - Pi_c f|²_c)^{1/2},   div sigma = Pi_c f - Pi_q f on each child c,
 ///
-/// Lowers the entries of `bound` (owned cells, not yet divided by the root of the tension) where this is less. Collective.
-void sharpen_in_cut_cells(const method::PolynomialSpace& space, int q, const scene::Field& force, const scene::FieldPtr& interface,
-                          std::vector<double>& bound);
+/// The children and their quadrature are made once, for the data of all membranes; nothing where the interface cuts no cell. Collective.
+class CutOscillation {
+ public:
+  CutOscillation(const method::PolynomialSpace& space, int q, const scene::FieldPtr& interface);
+  /// Lowers the entries of `bound` (owned cells, not yet divided by the root of the tension) where this is less. Collective.
+  void sharpen(const scene::Field& force, std::vector<double>& bound) const;
+
+ private:
+  core::Comm comm_;
+  int q_;
+  std::vector<LocalIndex> cells_;      ///< owned cells that are cut
+  mesh::Mesh fine_;                    ///< their children, one after the other
+  method::CellQuadrature quadrature_;  ///< on these
+  Metrics metric_;
+};
 
 }  // namespace thixis::equilibration

@@ -71,14 +71,18 @@ Deviation deviation_of_membranes(const method::PolynomialSpace& space, const Bou
   deviation.quadrature = composite(method::make_quadrature(mesh, cells, 6, nullptr), 4);
   const View<double*> bound("thixis::equilibration::deviation_bound", cells.extent(0));
   const View<double* [3]> D("thixis::equilibration::deviation", deviation.quadrature.points());
+  const auto host = mesh::on_host(mesh);
+  const LiftTable table = lift.table(deviation.quadrature.rule_xi);
+  std::vector<double> L[3];
   for (LocalIndex k = 0; k < cells.extent_int(0); ++k) {
     place(cells(k)) = k;
     bound(k) = lift.bound_of_difference(k);
-    const PointsOf points(deviation.quadrature, k);
-    for (int q = 0; q < points.count; ++q) {
-      const auto upper = lift(0, k, points.xi(q, 0), points.xi(q, 1)), lower = lift(1, k, points.xi(q, 0), points.xi(q, 1));
-      D(points.first + q, 0) = upper.value - lower.value;
-      for (int d = 0; d < 2; ++d) D(points.first + q, 1 + d) = upper.gradient[d] - lower.gradient[d];
+    const auto K = mesh::cell_geometry(host.coordinates, host.cell_vertices, cells(k));
+    table.evaluate(lift.difference(k), L);
+    const GlobalIndex first = deviation.quadrature.offset(k);
+    for (int q = 0; q < table.points(); ++q) {
+      D(first + q, 0) = L[0][q];
+      for (int d = 0; d < 2; ++d) D(first + q, 1 + d) = L[1][q] * K.gradient[1][d] + L[2][q] * K.gradient[2][d];
     }
   }
   deviation.place = place;

@@ -94,10 +94,11 @@ struct GuaranteedBound::Impl {
     moments = table("thixis::equilibration::moments", patch_cells, space.basis().size());
     lambda = table("thixis::equilibration::lambda", owned, n);
     sigma = table("thixis::equilibration::sigma", owned, flux);
+    const CutOscillation cut_cells(space, q, problem.interface);
     for (int alpha = 0; alpha < problem.count; ++alpha) {
       Membrane& m = membrane[alpha];
       m.least_tension = least_tension(space, *problem.tension[alpha]);
-      m.data = sources(space, q, *problem.force[alpha], problem.boundary[alpha], problem.interface, m.least_tension);
+      m.data = sources(space, q, *problem.force[alpha], problem.boundary[alpha], &cut_cells, m.least_tension);
       m.stress = make_stress(space, q, *problem.tension[alpha], m.least_tension);
       m.w = table("thixis::equilibration::stress", patch_cells, 2 * n);
       m.r_alg = table("thixis::equilibration::r_alg", patch_cells, n);

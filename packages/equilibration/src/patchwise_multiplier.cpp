@@ -300,6 +300,10 @@ class PatchwiseMultiplier final : public NonNegativeMultiplier {
       for (int b = 0; b < n; ++b)
         for (int m = 0; m < functions; ++m) tested[l * n + b] += psi[m * functions + l] * T[m * n + b];
     const auto lattice = bernstein_lattice(B_), from_lattice = equilibration::from_lattice(B_);
+    std::vector<double> tested_at_lattice(functions * n, 0.0);  // (l, v): values at the lattice -> moments
+    for (int l = 0; l < functions; ++l)
+      for (int r = 0; r < n; ++r)
+        for (int v = 0; v < n; ++v) tested_at_lattice[l * n + v] += tested[l * n + r] * from_lattice[r * n + v];
 
     const LocalIndex count = patches_.size();
     std::vector<LocalIndex> node, node_offset(1, 0), fit_offset(1, 0);
@@ -347,8 +351,7 @@ class PatchwiseMultiplier final : public NonNegativeMultiplier {
             if (!inside_patch(basis.entities()[l], corner(e)) || at < 0) continue;
             for (int b = 0; b < n; ++b) {
               double sum = 0;
-              for (int r = 0; r < n; ++r)
-                for (int v = 0; v < n; ++v) sum += tested[l * n + r] * from_lattice[r * n + v] * at_lattice[v * n + b];
+              for (int v = 0; v < n; ++v) sum += tested_at_lattice[l * n + v] * at_lattice[v * n + b];
               A[(at - first) * n + b] += metric(k).det * sum;
             }
           }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cut_oscillation.hpp"
 #include "thixis/mesh/geometry.hpp"
 #include "thixis/mesh/host.hpp"
 #include "thixis/method/gradient_form.hpp"
@@ -128,7 +127,7 @@ std::vector<double> least_tension(const method::PolynomialSpace& space, const sc
 }
 
 Sources sources(const method::PolynomialSpace& space, int q, const scene::Field& force, const method::BoundaryValues& boundary,
-                const scene::FieldPtr& interface, const std::vector<double>& least_tension) {
+                const CutOscillation* cut_cells, const std::vector<double>& least_tension) {
   const mesh::Mesh& mesh = space.mesh();
   const auto host = mesh::on_host(mesh);
   Sources data{CellTable("thixis::equilibration::force", space.cells().extent(0), reference::dimension(q + 1)),
@@ -154,7 +153,7 @@ Sources sources(const method::PolynomialSpace& space, int q, const scene::Field&
   const auto h = diameters(mesh);
   std::vector<double> sharp(mesh.owned_cells);
   for (LocalIndex K = 0; K < mesh.owned_cells; ++K) sharp[K] = poincare * h[K] * std::sqrt(square[K]);
-  sharpen_in_cut_cells(space, q, force, interface, sharp);
+  if (cut_cells) cut_cells->sharpen(force, sharp);
   const auto oscillation = Kokkos::create_mirror_view(data.oscillation), of_sharp = Kokkos::create_mirror_view(data.sharp_oscillation),
              of_traction = Kokkos::create_mirror_view(data.traction_oscillation);
   for (LocalIndex K = 0; K < mesh.owned_cells; ++K) {

@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "thixis/equilibration/cell_fields.hpp"
+#include "cut_oscillation.hpp"
 #include "thixis/method/polynomial_space.hpp"
 
 namespace thixis::equilibration {
@@ -19,9 +19,10 @@ struct Sources {
 ///
 ///     |v|²_F <= |F| h_K²/|K| (1 + pi)/pi² |grad v|²_K,
 ///
-/// as (that constant)^{1/2} mu^{-1/2} |t - Pi_q t|_F. mu: its least value in the cell. Collective.
+/// as (that constant)^{1/2} mu^{-1/2} |t - Pi_q t|_F. mu: its least value in the cell. `cut_cells`: null where nothing asks for the
+/// sharp oscillation. Collective.
 Sources sources(const method::PolynomialSpace& space, int q, const scene::Field& force, const method::BoundaryValues& boundary,
-                const scene::FieldPtr& interface, const std::vector<double>& least_tension);
+                const CutOscillation* cut_cells, const std::vector<double>& least_tension);
 
 /// The least value of the tension at the quadrature points of each owned cell. Collective; throws InputError where it is not positive.
 std::vector<double> least_tension(const method::PolynomialSpace& space, const scene::Field& tension);

@@ -155,6 +155,8 @@ class MembraneDiscretization final : public Discretization {
     return {copy(parts.discretization), copy(parts.linearization), copy(parts.algebraic)};
   }
 
+  std::size_t bytes_of_estimate() const override { return bound_ ? bound_->bytes() : 0; }
+
   std::optional<PublishedEstimate> published_estimate(const Vector& X, std::optional<double> friedrichs) override {
     if (!polynomials().conforming()) return std::nullopt;
     const Boundary boundary = boundary_of(scene_, space_->mesh());

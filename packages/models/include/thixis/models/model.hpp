@@ -58,6 +58,8 @@ class Discretization {
   virtual complementarity::Estimate estimate(const algebra::Vector& X) = 0;
   /// Of the last call of `estimate`.
   virtual CellEstimates cell_estimates() const = 0;
+  /// What is held for them on this rank; 0 before the first.
+  virtual std::size_t bytes_of_estimate() const { return 0; }
   /// Nothing where the literature has no such bound. `friedrichs`: C in |v| <= C |grad v|; not given: that of the box around the domain,
   /// where the whole boundary is held, else nothing. Collective.
   virtual std::optional<PublishedEstimate> published_estimate(const algebra::Vector& X, std::optional<double> friedrichs) = 0;
