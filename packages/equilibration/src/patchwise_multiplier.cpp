@@ -153,12 +153,16 @@ struct FitPatch {
   }
 };
 
-/// Where no function of a patch is free, the mean of the other vertices of its cells that have one.
+/// Where no function of a patch is free, the mean of the other vertices of its cells that have one. For p = 1 their values are those of
+/// lambda_h: the patches of some of them may be known to other ranks only. For p >= 2 such a patch is a single cell, of this rank.
 struct FillEmpty {
   VertexPatches patches;
   View<const LocalIndex*> patch_of_vertex;
   View<LocalIndex* [3]> vertices;
   View<const LocalIndex*> cells;
+  Kokkos::View<LocalIndex**, Kokkos::LayoutRight> entries;
+  View<const LocalIndex*> column_of_entry;
+  method::Coefficients nodal;  ///< p = 1: values at the vertices; empty: means of patches
   Metrics metric;
   Matrix constant;  ///< (i, m): ∫ lambda_i phi_m
   View<const double*> mean;
@@ -170,9 +174,9 @@ struct FillEmpty {
     int count = 0;
     for (LocalIndex e = patches.offset(a); e < patches.offset(a + 1); ++e)
       for (int i = 0; i < 3; ++i) {
-        const LocalIndex b = patch_of_vertex(vertices(cells(patches.cell(e)), i));
-        if (b < 0 || mean(b) < 0) continue;
-        sum += mean(b);
+        const LocalIndex k = patches.cell(e), entry = entries(k, i), b = patch_of_vertex(vertices(cells(k), i));
+        if (nodal.extent(0) > 0 ? column_of_entry(entry) < 0 : b < 0 || mean(b) < 0) continue;
+        sum += nodal.extent(0) > 0 ? nodal(entry) : mean(b);
         ++count;
       }
     const int modes = constant.extent_int(1);
@@ -233,7 +237,8 @@ class PatchwiseMultiplier final : public NonNegativeMultiplier {
                          FitPatch{patches_, data_, mesh.coordinates, mesh.cell_vertices, space_.cells(), metric_, B_.degree, lattice_,
                                   from_lattice_, hat_integral_, hat_modal_, at_entries, cell_mean_, patch, mean_});
     Kokkos::parallel_for("thixis::equilibration::fill_empty_patches", Kokkos::RangePolicy<>(0, patches_.size()),
-                         FillEmpty{patches_, patch_of_vertex_, mesh.cell_vertices, space_.cells(), metric_, constant_, mean_, patch});
+                         FillEmpty{patches_, patch_of_vertex_, mesh.cell_vertices, space_.cells(), space_.coefficients().element_entries,
+                                   space_.numbering().column_of_entry, nodal_values(moments), metric_, constant_, mean_, patch});
     const int modes = density.extent_int(1);
     Kokkos::parallel_for(
         "thixis::equilibration::sum_patches", Kokkos::RangePolicy<>(0, density.extent_int(0)), KOKKOS_LAMBDA(int K) {
@@ -246,6 +251,18 @@ class PatchwiseMultiplier final : public NonNegativeMultiplier {
   }
 
  private:
+  /// lambda_h at the vertices for p = 1, with those of other ranks; empty otherwise.
+  method::Coefficients nodal_values(const algebra::Vector& moments) const {
+    if (B_.degree > 0) return {};
+    algebra::Vector values(space_.map());
+    {
+      const auto M = algebra::host_view(moments), D = algebra::host_view(space_.pairing());
+      const auto out = algebra::host_overwrite(values);
+      for (std::size_t l = 0; l < M.extent(0); ++l) out(l) = M(l) / D(l);
+    }
+    return space_.complete(values, method::Coefficients("thixis::equilibration::nothing", space_.coefficients().entries.size()));
+  }
+
   void tabulate() {
     const reference::Modal modal(q_ + 1);
     const int n = B_.size, modes = reference::dimension(q_), wide = modal.size();

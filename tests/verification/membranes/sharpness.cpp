@@ -1,0 +1,153 @@
+/// How near the bound is to the error, at the solution and on the way to it.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "iterates.hpp"
+
+namespace thixis::verification {
+namespace {
+
+/// The bound of the discrete solution, solved exactly. Every one is a row of bounds.csv in the working folder.
+Seen at_convergence(const std::string& problem, int level, const std::string& name, const method::MethodParams& method) {
+  auto params = known_case(problem, level, method);
+  params.stopping.linear_tolerance = 1e-12;
+  params.stopping.nonlinear_tolerance = 1e-11;
+  if (level > 2 && (method.name != method::MethodName::fem || level > 4)) {
+    params.linear.solver = method.symmetric() ? algebra::SolverKind::cg : algebra::SolverKind::gmres;
+    params.linear.preconditioner = algebra::PreconditionerKind::ilu;
+    if (method.name == method::MethodName::fem) params.linear.preconditioner = algebra::PreconditionerKind::muelu;
+  }
+  const Solved run = solve(params);
+  EXPECT_TRUE(run.outcome.solved) << problem << ", T_" << level << ", " << name << ": " << run.outcome.finest.why;
+  const Seen seen = {run.outcome.discretization->estimate(*run.outcome.X), *run.outcome.energy_error};
+  const std::string where = problem + ", T_" + std::to_string(level) + ", " + name;
+  EXPECT_GE(seen.effectivity(), 1) << where;
+  EXPECT_LE(seen.eta.linearization, 1e-9 * seen.eta.discretization) << where;
+  EXPECT_LE(seen.eta.algebraic, 1e-7 * seen.eta.discretization) << where;
+  std::ofstream("bounds.csv", std::ios::app) << problem << ',' << name << ',' << level << ',' << seen.error << ',' << seen.eta.total << ','
+                                             << seen.effectivity() << '\n';
+  return seen;
+}
+
+struct Limits {
+  const char* problem;
+  double degree_2, degree_3_and_4;
+};
+const Limits limits[] = {{"smooth contact", 6, 2.5}, {"discontinuous multiplier", 6, 10}, {"disk b", 6, 10}};
+
+/// The indices of finite elements of a degree on the meshes up to `finest` are below the limits, and from T_1 on none is more than twice
+/// as large as that on T_1.
+void expect_sharp(int degree, int finest) {
+  for (const Limits& limit : limits) {
+    double first = 0;
+    for (int level = 0; level <= finest; ++level) {
+      const double index =
+          at_convergence(limit.problem, level, "fem P" + std::to_string(degree), by(method::MethodName::fem, degree)).effectivity();
+      const std::string where = std::string(limit.problem) + ", P" + std::to_string(degree) + ", T_" + std::to_string(level);
+      if (level == 1) first = index;
+      if (level > 1) {
+        EXPECT_LE(index, 2 * first) << where;
+      }
+      if (degree > 1) {
+        EXPECT_LE(index, degree == 2 ? limit.degree_2 : limit.degree_3_and_4) << where;
+      } else if (level >= 3) {
+        EXPECT_LE(index, level >= 5 ? 1.1 : 1.2) << where;
+      }
+    }
+  }
+}
+
+}  // namespace
+
+TEST(Sharpness, of_finite_elements_of_degree_1_is_one_fifth_on_T_3) { expect_sharp(1, 3); }
+TEST(Sharpness, of_finite_elements_of_degree_2_is_bounded) { expect_sharp(2, 3); }
+TEST(Sharpness, of_finite_elements_of_degree_3_is_bounded) { expect_sharp(3, 2); }
+TEST(Sharpness, of_finite_elements_of_degree_4_is_bounded) { expect_sharp(4, 2); }
+TEST(FarSharpness, of_finite_elements_of_degree_1_is_one_tenth_on_T_5) { expect_sharp(1, 5); }
+TEST(FarSharpness, of_finite_elements_of_higher_degree_is_bounded_up_to_T_4) {
+  for (int p = 2; p <= 4; ++p) expect_sharp(p, 4);
+}
+
+namespace {
+
+void expect_bounds_of_all(int finest) {
+  for (const Limits& limit : limits)
+    for (int p = 1; p <= 4; ++p)
+      for (const auto& [name, method] : all_variants(p)) {
+        const bool row = name.find("fem P") == std::string::npos && name.find("strong") == std::string::npos;
+        for (int level = 0; row && level <= finest; ++level) at_convergence(limit.problem, level, name, method);
+      }
+}
+
+}  // namespace
+
+TEST(Sharpness, of_dg_and_hho_is_no_less_than_1_at_the_solution) { expect_bounds_of_all(1); }
+TEST(FarSharpness, of_dg_and_hho_is_no_less_than_1_at_the_solution) { expect_bounds_of_all(3); }
+
+/// The published bound is 24 times the error there, because of its global constants.
+TEST(Sharpness, of_the_disk_after_the_first_step_of_a_cold_start_is_8_at_most) {
+  auto params = known_case("disk", 0, by(method::MethodName::fem, 1));
+  params.mesh.rings = 36;
+  params.newton.start = complementarity::Start::cold;
+  const Laid laid = lay(params);
+  EXPECT_EQ(laid.hierarchy.finest().global_cells, 7776);
+  for (const auto function : {complementarity::CFunction::min, complementarity::CFunction::fischer_burmeister}) {
+    auto newton = params.newton;
+    newton.c_function = function;
+    newton.max_iterations = 1;
+    const auto X = laid->cold_start();
+    complementarity::newton(laid->problem(), *X, newton, params.stopping, 10);
+    const Seen seen = laid.look(*X);
+    EXPECT_GE(seen.effectivity(), 1);
+    EXPECT_LE(seen.effectivity(), 8);
+    std::cout << "first step on the disk, 7776 cells: bound " << seen.eta.total << ", error " << seen.error << ", index "
+              << seen.effectivity() << '\n';
+  }
+}
+
+namespace {
+
+/// Krylov iterations decrease eta_alg, Newton steps eta_lin, both to nothing. In reduced form contact points have no gap at all; otherwise
+/// a gap of the size of round-off is left there, and eta_lin holds the root of gap times multiplier.
+void expect_decay(const std::string& problem, const std::string& name, const method::MethodParams& method, algebra::SystemForm form) {
+  auto params = known_case(problem, 1, method);
+  params.newton.start = complementarity::Start::cold;
+  params.linear = {};
+  params.linear.form = form;
+  params.stopping.estimate = true;
+  params.stopping.linear_tolerance = 1e-13;
+  params.stopping.nonlinear_tolerance = 1e-11;
+  std::vector<std::vector<complementarity::Estimate>> within(1);
+  std::vector<complementarity::Estimate> steps;
+  complementarity::NewtonObserver observer;
+  observer.linear = [&](const complementarity::LinearRecord& record) { within.back().push_back(*record.estimate); };
+  observer.step = [&](const complementarity::NewtonRecord& record) {
+    steps.push_back(*record.estimate);
+    within.emplace_back();
+  };
+  const Laid laid = lay(params);
+  const auto X = laid->cold_start();
+  const auto report = complementarity::newton(laid->problem(), *X, params.newton, params.stopping, 5, observer,
+                                              [&](const algebra::Vector& at) { return laid->estimate(at); });
+  ASSERT_TRUE(report.converged) << name << ": " << report.why;
+  ASSERT_GE(steps.size(), 2u) << name;
+  EXPECT_LE(steps.back().linearization, (form == algebra::SystemForm::reduced ? 1e-9 : 1e-5) * steps.back().discretization) << name;
+  EXPECT_LE(steps.back().algebraic, 1e-8 * steps.back().discretization) << name;
+  EXPECT_GT(steps.front().linearization, 1e-3 * steps.front().discretization) << name;
+  for (const auto& looks : within)
+    if (looks.size() > 1 && looks.front().algebraic > 1e-6 * looks.front().discretization) {
+      EXPECT_LT(looks.back().algebraic, 0.1 * looks.front().algebraic) << name;
+    }
+}
+
+}  // namespace
+
+TEST(Components, of_the_bound_decrease_with_the_iterations_that_they_belong_to_and_vanish) {
+  for (const auto form : {algebra::SystemForm::full, algebra::SystemForm::reduced})
+    for (int p = 1; p <= 2; ++p)
+      for (const auto& [name, method] : all_variants(p)) expect_decay("discontinuous multiplier", name, method, form);
+}
+
+}  // namespace thixis::verification
