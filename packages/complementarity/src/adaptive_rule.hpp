@@ -1,5 +1,6 @@
 #pragma once
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 #include "thixis/complementarity/estimate.hpp"
@@ -7,12 +8,14 @@
 
 namespace thixis::complementarity {
 
-/// eta_alg <= gamma max(eta_disc, eta_lin), as a whole or (local) in every cell; gamma = gamma_alg, or less while Newton does not get
-/// ahead.
-inline bool algebraic_error_is_small(const Estimate& eta, const StoppingParams& stopping, double strictness = 1) {
+/// By how much eta_alg exceeds gamma max(eta_disc, eta_lin), as a whole or (local) in the worst cell; gamma = gamma_alg, or less while
+/// Newton does not get ahead. At most 1: small enough.
+inline double algebraic_excess(const Estimate& eta, const StoppingParams& stopping, double strictness = 1) {
   const double gamma = strictness * stopping.gamma_algebraic;
-  if (stopping.local) return eta.worst_algebraic <= gamma;
-  return eta.algebraic <= gamma * std::max(eta.discretization, eta.linearization);
+  if (stopping.local) return eta.worst_algebraic / gamma;
+  const double allowed = gamma * std::max(eta.discretization, eta.linearization);
+  return eta.algebraic <= allowed ? std::min(1.0, eta.algebraic / std::max(allowed, std::numeric_limits<double>::min()))
+                                  : eta.algebraic / allowed;
 }
 
 /// eta_lin <= gamma_lin eta_disc, as a whole or (local) in every cell.

@@ -36,7 +36,7 @@ bool SmallEstimate::ask(const State& now, const State& before, int k) {
   if (k == 0) return false;
   const std::optional<Estimate>& eta = system_.estimate(X());
   const bool held_before = held_;
-  held_ = linearization_error_is_small(*eta, system_.stopping()) && algebraic_error_is_small(*eta, system_.stopping());
+  held_ = linearization_error_is_small(*eta, system_.stopping()) && algebraic_excess(*eta, system_.stopping()) <= 1;
   return held_ && (held_before || now.active.changed(before.active) == 0);
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "thixis/core/timer.hpp"
 
@@ -60,15 +61,23 @@ double System::linear_tolerance(double rhs, double residual) const {
   return std::min(wanted, 0.1 * residual);
 }
 
+/// An estimate costs as much as some iterations: after one that exceeds what is allowed by a factor e, the next one waits until the
+/// residual has fallen by e/impatience.
+constexpr double impatience = 3;
+
 bool System::look(const algebra::Vector& X, const algebra::Vector& dX, int iteration, double residual, double rhs) {
   LinearRecord record{step_, iteration, residual, std::nullopt};
   bool enough = false;
-  if (iteration > 0 && asks_criterion()) {
+  forget_estimate();
+  if (iteration > 0 && asks_criterion() && residual <= worth_looking_) {
     algebra::Vector Xi(X, Teuchos::Copy);
     Xi.update(1, dX, 1);
-    forget_estimate();
     record.estimate = estimate(Xi);
-    if (stopping_.rule == StoppingRule::adaptive) enough = algebraic_error_is_small(*record.estimate, stopping_, strictness_.factor());
+    if (stopping_.rule == StoppingRule::adaptive) {
+      const double excess = algebraic_excess(*record.estimate, stopping_, strictness_.factor());
+      enough = excess <= 1;
+      if (!stopping_.estimate.value_or(false) && std::isfinite(excess)) worth_looking_ = residual * std::min(1.0, impatience / excess);
+    }
     if (stopping_.rule == StoppingRule::inexact) {
       algebra::Vector Ri(X.getMap());
       enough = residual / rhs <= stopping_.inexact_factor * this->residual(Xi, Ri).residual / reference_;
@@ -107,6 +116,7 @@ void System::solve(const algebra::Vector& X, const algebra::Vector& R, algebra::
   stop.tolerance = linear_tolerance(rhs, residual);
   forget_estimate();
   looked_at_ = 0;
+  worth_looking_ = std::numeric_limits<double>::infinity();
   if (check_every_ > 0 && (asks_criterion() || observer_.linear)) {
     stop.check_every = check_every_;
     stop.criterion = [&](const algebra::Vector& dXi, int iteration, double left) { return look(X, dXi, iteration, left, rhs); };

@@ -77,6 +77,7 @@ class System {
   int failures_ = 0;  ///< linear systems in a row that were not solved
   bool solved_ = false;
   double left_ = 0;
+  double worth_looking_ = 0;          ///< residual of the linear system below which the next estimate is asked for
   int looked_at_ = 0;                 ///< last iteration of the linear solver that `look` has seen
   std::optional<Estimate> estimate_;  ///< at the present iterate
   Strictness strictness_;             ///< of the rule `adaptive`

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "thixis/algebra/solver.hpp"
 #include "thixis/algebra/tpetra.hpp"
@@ -83,6 +84,62 @@ void add_products(double factor, const std::vector<double> (&f)[3], const std::a
   }
 }
 
+/// A face of a cell cut into equal pieces, with the functions on it at their ends.
+class Pieces {
+ public:
+  static constexpr int count = 64;
+
+  explicit Pieces(const reference::CellBasis& basis) : functions_(basis.size()) {
+    constexpr double corner[3][2] = {{0, 0}, {1, 0}, {0, 1}};
+    for (int i = 0; i < 3; ++i) {
+      std::vector<double> at;
+      for (int m = 0; m <= count; ++m)
+        for (int d = 0; d < 2; ++d) at.push_back((1 - s(m)) * corner[(i + 1) % 3][d] + s(m) * corner[(i + 2) % 3][d]);
+      trace_[i] = basis.tabulate(count + 1, at.data()).value;
+    }
+    for (int m = 0; m <= count; ++m)
+      for (const double value : reference::legendre(LiftInCell::resolution + 1, s(m))) legendre_.push_back(value);
+  }
+  static double s(int m) { return static_cast<double>(m) / count; }
+
+  /// g <- g - g_h at the ends of the pieces of face i; `u`: coefficients in the cell.
+  void subtract(int i, const double* u, std::vector<double>& g) const {
+    for (int m = 0; m <= count; ++m)
+      for (int l = 0; l < functions_; ++l) g[m] -= trace_[i][m * functions_ + l] * u[l];
+  }
+  /// delta <- rho.
+  void subtract_lift(const LiftInCell::Series& q, std::vector<double>& delta) const {
+    for (int m = 0; m <= count; ++m)
+      for (int j = 0; j <= LiftInCell::resolution; ++j)
+        delta[m] -= s(m) * (1 - s(m)) * q[j] * legendre_[m * (LiftInCell::resolution + 1) + j];
+  }
+  /// ∫_K |grad E|² of the extension of rho from the face from a to b into the triangle with the third vertex c.
+  static double energy(const std::vector<double>& rho, const double (&a)[2], const double (&b)[2], const double (&c)[2]) {
+    const double e[2] = {b[0] - a[0], b[1] - a[1]}, d[2] = {c[0] - a[0], c[1] - a[1]};
+    const double length2 = e[0] * e[0] + e[1] * e[1], twice_area = std::abs(e[0] * d[1] - e[1] * d[0]);
+    const double foot = (e[0] * d[0] + e[1] * d[1]) / length2, height2 = twice_area * twice_area / length2;
+    double sum = 0;
+    for (int m = 0; m < count; ++m) {
+      const double slope = count * (rho[m + 1] - rho[m]), mean = 0.5 * (rho[m] + rho[m + 1]);
+      const double across = slope * (0.5 * (s(m) + s(m + 1)) - foot) - mean;
+      sum += (slope * slope / length2 + across * across / height2) / count;
+    }
+    return 0.5 * twice_area * sum;
+  }
+
+ private:
+  int functions_;
+  std::vector<double> trace_[3], legendre_;
+};
+
+/// The largest of some values of a tension at points, all of them if it varies.
+double largest_tension(const scene::Field& tension, const std::vector<double>& x, const std::vector<double>& y) {
+  if (const double* constant = tension.constant()) return *constant;
+  std::vector<double> mu(x.size());
+  tension.evaluate({x.size(), x.data(), y.data()}, 0, mu.data());
+  return *std::max_element(mu.begin(), mu.end());
+}
+
 }  // namespace
 
 BoundaryLift::BoundaryLift(const method::PolynomialSpace& space, const ContinuousNodes& nodes,
@@ -91,7 +148,7 @@ BoundaryLift::BoundaryLift(const method::PolynomialSpace& space, const Continuou
     : space_(space), host_(mesh::on_host(space.mesh())), count_(count), basis_(degree_of_v, reference::Family::bernstein) {
   for (const auto& value : boundary[0].dirichlet) dirichlet_.push_back(value != nullptr);
   const core::Comm& comm = space.mesh().comm;
-  comm.together([&] { find_faces(nodes, boundary, held); });
+  comm.together([&] { find_faces(nodes, tension, boundary, held); });
   empty_ = !comm.any(!empty_);
   if (empty_) {
     boundary_ = {};
@@ -102,8 +159,8 @@ BoundaryLift::BoundaryLift(const method::PolynomialSpace& space, const Continuou
   integrate(tension);
 }
 
-void BoundaryLift::find_faces(const ContinuousNodes& nodes, const std::array<method::BoundaryValues, 2>& boundary,
-                              const std::vector<double> (&held)[2]) {
+void BoundaryLift::find_faces(const ContinuousNodes& nodes, const std::array<scene::FieldPtr, 2>& tension,
+                              const std::array<method::BoundaryValues, 2>& boundary, const std::vector<double> (&held)[2]) {
   const auto rule = reference::line_quadrature(2 * LiftInCell::resolution + 8);
   const int points = rule.size(), n = space_.basis().size();
   const auto of_cells = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), nodes.of_cells);
@@ -120,8 +177,10 @@ void BoundaryLift::find_faces(const ContinuousNodes& nodes, const std::array<met
   for (const double s : rule.point)
     for (const double value : reference::legendre(LiftInCell::resolution + 1, s)) legendre.push_back(value);
 
+  const Pieces pieces(space_.basis());
   double largest = 0, size = 0;
-  std::vector<double> x(points), y(points), g(points), difference(points);
+  std::vector<double> x(points), y(points), g(points), difference(points), fine_x(Pieces::count + 1), fine_y(fine_x), rho(fine_x), u(n);
+  std::map<LocalIndex, double> left;  // of owned cells: sum over their faces of |||E|||
   for (std::size_t k = 0; k < cells.extent(0); ++k)
     for (int i = 0; i < 3; ++i) {
       const LocalIndex tag = host_.face_tag(host_.cell_faces(cells(k), i));
@@ -135,7 +194,16 @@ void BoundaryLift::find_faces(const ContinuousNodes& nodes, const std::array<met
       if (boundary_.empty() || boundary_.back().position != static_cast<LocalIndex>(k))
         boundary_.push_back({static_cast<LocalIndex>(k), {}, 0});
       OnBoundary& cell = boundary_.back();
+      const LocalIndex c = host_.cell_vertices(cells(k), i);
+      const double corners[3][2] = {{host_.coordinates(a, 0), host_.coordinates(a, 1)},
+                                    {host_.coordinates(b, 0), host_.coordinates(b, 1)},
+                                    {host_.coordinates(c, 0), host_.coordinates(c, 1)}};
+      for (int m = 0; m <= Pieces::count; ++m) {
+        fine_x[m] = (1 - Pieces::s(m)) * corners[0][0] + Pieces::s(m) * corners[1][0];
+        fine_y[m] = (1 - Pieces::s(m)) * corners[0][1] + Pieces::s(m) * corners[1][1];
+      }
       std::fill(difference.begin(), difference.end(), 0.0);
+      double square = 0;
       for (int alpha = 0; alpha < count_; ++alpha) {
         boundary[alpha].dirichlet[tag]->evaluate({x.size(), x.data(), y.data()}, 0, g.data());
         LiftInCell& lift = cell.l[alpha];
@@ -152,12 +220,21 @@ void BoundaryLift::find_faces(const ContinuousNodes& nodes, const std::array<met
           for (int j = 0; j <= LiftInCell::resolution; ++j)
             coefficient[j] += rule.weight[q] * quotient * legendre[q * (LiftInCell::resolution + 1) + j];
         }
+        for (int l = 0; l < n; ++l) u[l] = held[alpha][of_cells(k, l)];
+        boundary[alpha].dirichlet[tag]->evaluate({fine_x.size(), fine_x.data(), fine_y.data()}, 0, rho.data());
+        pieces.subtract(i, u.data(), rho);
+        for (const double delta : rho) largest = std::max(largest, std::abs(delta));
+        pieces.subtract_lift(coefficient, rho);
+        square += largest_tension(*tension[alpha], fine_x, fine_y) * Pieces::energy(rho, corners[0], corners[1], corners[2]);
       }
+      if (static_cast<LocalIndex>(k) < space_.mesh().owned_cells) left[static_cast<LocalIndex>(k)] += std::sqrt(square);
       double most = 0;
       for (const double d : difference) most = std::max(most, std::abs(d));
       cell.difference += most;
     }
   empty_ = largest <= 1e-13 * size;
+  if (empty_) return;
+  for (const auto& [cell, energy] : left) remainder_.push_back({cell, energy});
 }
 
 /// Row by row: the cells that touch the held boundary, those that touch them, … The owner of a cell knows all cells around it.

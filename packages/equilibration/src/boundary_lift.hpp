@@ -28,6 +28,16 @@ class BoundaryLift {
   const LiftOfCells& of_cells() const { return of_cells_; }
   double energy() const { return energy_; }  ///< |||L||| over all cells of all ranks
 
+  /// What q leaves of delta, rho = delta - s (1 - s) q, on owned cells: |||E|||_K of its extension E = (1 - r) rho(s), r = 0 on the face
+  /// and 1 at the opposite vertex, over all faces of the cell,
+  ///
+  ///     ∫_K |grad E|² = |K| ∫_0^1 (rho'/|F|)² + (rho' (s - a) - rho)²/H² ds,   a the foot of the height H on the face, by 64 pieces.
+  struct Remainder {
+    LocalIndex cell;
+    double energy;
+  };
+  const std::vector<Remainder>& remainder() const { return remainder_; }
+
   struct Value {
     double value = 0, gradient[2] = {0, 0};
   };
@@ -46,8 +56,8 @@ class BoundaryLift {
     LiftInCell l[2];
     double difference;
   };
-  void find_faces(const ContinuousNodes& nodes, const std::array<method::BoundaryValues, 2>& boundary,
-                  const std::vector<double> (&held)[2]);
+  void find_faces(const ContinuousNodes& nodes, const std::array<scene::FieldPtr, 2>& tension,
+                  const std::array<method::BoundaryValues, 2>& boundary, const std::vector<double> (&held)[2]);
   void find_layer();
   void minimise(const std::array<scene::FieldPtr, 2>& tension);
   void integrate(const std::array<scene::FieldPtr, 2>& tension);
@@ -57,6 +67,7 @@ class BoundaryLift {
   int count_;
   bool empty_ = true;
   std::vector<bool> dirichlet_;
+  std::vector<Remainder> remainder_;
   std::vector<OnBoundary> boundary_;       ///< until the layer is known
   View<const LocalIndex*> layer_, owned_;  ///< layer cells of this rank: the owned ones first
   reference::CellBasis basis_;             ///< of v

@@ -194,7 +194,7 @@ void FeasiblePair::evaluate(const method::Coefficients (&u)[2], const ConstCellT
         for (const auto& s : kernel.s_c) most = std::max(most, std::abs(s(e)));
       },
       Kokkos::Max<double>(size));
-  kernel.noise = 1e-13 * size;
+  kernel.noise = 1e-13 * impl_->space.mesh().comm.max(size);
   kernel.small = small;
   kernel.lambda = lambda;
   kernel.density.degree = degree;
@@ -204,6 +204,10 @@ void FeasiblePair::evaluate(const method::Coefficients (&u)[2], const ConstCellT
   kernel.contact = parts.contact;
   Kokkos::parallel_for("thixis::equilibration::feasible_parts", Kokkos::RangePolicy<>(0, cells), kernel);
   Kokkos::fence();
+  for (const auto& [cell, energy] : impl_->lift->remainder()) {
+    parts.whole(cell) += energy;
+    parts.rest(cell) += energy;
+  }
 }
 
 double FeasiblePair::boundary_energy() const { return impl_->lift->energy(); }

@@ -81,7 +81,7 @@ struct GuaranteedBound::Impl {
         metric(metrics(mesh, of.cells())) {
     const auto table = [](const std::string& label, LocalIndex rows, int columns) { return CellTable(label, rows, columns); };
     const bool conforming = space.conforming();
-    multiplier = conforming ? patchwise_multiplier(space, held) : cellwise_multiplier(space);
+    multiplier = conforming ? patchwise_multiplier(space) : cellwise_multiplier(space);
     if (conforming) {
       patches = std::make_unique<PatchFlux>(mesh, space.cells(), held, q);
       patch_lambda = table("thixis::equilibration::patch_lambda", patch_cells, 3 * n);

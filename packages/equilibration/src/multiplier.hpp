@@ -22,7 +22,7 @@ class NonNegativeMultiplier {
 /// the hat function psi_a that they give, and drawn to its mean just so far that it is nowhere negative (by its Bernstein coefficients);
 ///
 ///     lambda = sum_a psi_a L_a >= 0,   (L_a, psi_a) = sum_l c_l M_l  with psi_a = sum_l c_l psi_l   at every free vertex.
-std::unique_ptr<NonNegativeMultiplier> patchwise_multiplier(const method::PolynomialSpace& space, const std::vector<bool>& held);
+std::unique_ptr<NonNegativeMultiplier> patchwise_multiplier(const method::PolynomialSpace& space);
 
 /// Functions without continuity: in every cell the function with these moments, projected on P_q and drawn to its mean likewise.
 std::unique_ptr<NonNegativeMultiplier> cellwise_multiplier(const method::PolynomialSpace& space);

@@ -2,42 +2,12 @@
 #include <cmath>
 
 #include "multiplier.hpp"
+#include "multiplier_fits.hpp"
 #include "tables.hpp"
 #include "thixis/algebra/tpetra.hpp"
-#include "thixis/mesh/host.hpp"
-#include "vertex_patches.hpp"
 
 namespace thixis::equilibration {
 namespace {
-
-constexpr int most_coefficients = 10;  ///< dim P_3
-using Flags = View<const bool*>;
-
-/// psi_l at the places of a patch: which functions of a cell do not vanish with the hat function of its vertex i.
-bool inside_patch(const reference::NodeEntity& entity, int i) {
-  return entity.kind == reference::Entity::interior || (entity.kind == reference::Entity::vertex && entity.index == i) ||
-         (entity.kind == reference::Entity::face && entity.index != i);
-}
-
-/// Everything that one patch needs, for all of them one after the other.
-struct Fits {
-  View<LocalIndex*> node_offset;  ///< free functions inside patch a: node_offset(a) … node_offset(a+1)-1
-  View<LocalIndex*> node;         ///< entry
-  View<double*> hat;              ///< c_l: psi_a = sum_l c_l psi_l
-  View<LocalIndex*> fit_offset;   ///< into `fit`
-  View<double*> fit;              ///< (coefficient, node): moments -> scaled monomials around the vertex; nothing where they do not suffice
-  View<double*> weight;           ///< sum_l c_l (psi_l, 1) over the free functions; 0 where there is none
-  View<double*> diameter;         ///< of the patch: the scale of the monomials
-  View<double* [2]> place;        ///< of the vertex
-};
-
-/// x^i y^j, i + j <= degree <= 3.
-KOKKOS_INLINE_FUNCTION void monomials(int degree, double x, double y, double* value) {
-  const double px[4] = {1, x, x * x, x * x * x}, py[4] = {1, y, y * y, y * y * y};
-  int b = 0;
-  for (int total = 0; total <= degree; ++total)
-    for (int j = 0; j <= total; ++j) value[b++] = px[total - j] * py[j];
-}
 
 struct FitPatch {
   VertexPatches patches;
@@ -189,12 +159,12 @@ struct FillEmpty {
 
 class PatchwiseMultiplier final : public NonNegativeMultiplier {
  public:
-  PatchwiseMultiplier(const method::PolynomialSpace& space, const std::vector<bool>& held)
+  explicit PatchwiseMultiplier(const method::PolynomialSpace& space)
       : space_(space),
         q_(space.flux_degree()),
         B_(reference::bernstein(space.basis().degree() - 1)),
         metric_(metrics(space.mesh(), space.cells())),
-        patches_(vertex_patches(space.mesh(), space.cells(), held)),
+        patches_(vertex_patches(space.mesh(), space.cells())),
         patch_of_vertex_("thixis::equilibration::patch_of_vertex", space.mesh().vertices),
         mean_("thixis::equilibration::patch_mean", patches_.size()),
         cell_mean_("thixis::equilibration::cell_mean", space.cells().extent(0)),
@@ -206,8 +176,8 @@ class PatchwiseMultiplier final : public NonNegativeMultiplier {
         "thixis::equilibration::patch_of_vertex", Kokkos::RangePolicy<>(0, patches_.size()),
         KOKKOS_LAMBDA(int a) { patch_of_vertex(vertex(a)) = a; });
     tabulate();
-    set_up();
-    set_up_means();
+    data_ = multiplier_fits(space, patches_, metric_);
+    weigh_cells();
   }
 
   void operator()(const algebra::Vector& moments, const CellTable& density, const CellTable& patch) const override {
@@ -288,112 +258,9 @@ class PatchwiseMultiplier final : public NonNegativeMultiplier {
     constant_ = matrix("thixis::equilibration::hat_constant", 3, modes, constant);
   }
 
-  /// Functions of each patch, and the fit of polynomials of degree p - 1 to their moments.
-  void set_up() {
-    const auto& basis = space_.basis();
-    const auto host = mesh::on_host(space_.mesh());
-    const auto cells = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), space_.cells());
-    const auto entries = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), space_.coefficients().element_entries);
-    const auto column = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), space_.numbering().column_of_entry);
-    const auto offset = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), patches_.offset);
-    const auto cell = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), patches_.cell);
-    const auto corner = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), patches_.corner);
-    const auto vertex = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), patches_.vertex);
-    const auto metric = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), metric_);
-    const int p = basis.degree(), functions = basis.size(), n = B_.size;
-
-    // hat functions in the basis, and ∫ psi_l B_b
-    std::vector<std::vector<double>> hat(3, std::vector<double>(functions, 0.0));
-    for (int i = 0; i < 3; ++i)
-      for (int l = 0; l < functions; ++l)
-        for (int m = 0; m < functions; ++m) {
-          const double xi = basis.points()[2 * m], eta = basis.points()[2 * m + 1], lambda[3] = {1 - xi - eta, xi, eta};
-          hat[i][l] += basis.from_values()[l * functions + m] * lambda[i];
-        }
-    const reference::Modal modal(p);
-    const auto T = bernstein_to_modal(B_, modal, functions), psi = to_modal(basis, modal);
-    std::vector<double> tested(functions * n, 0.0);  // (l, b)
-    for (int l = 0; l < functions; ++l)
-      for (int b = 0; b < n; ++b)
-        for (int m = 0; m < functions; ++m) tested[l * n + b] += psi[m * functions + l] * T[m * n + b];
-    const auto lattice = bernstein_lattice(B_), from_lattice = equilibration::from_lattice(B_);
-    std::vector<double> tested_at_lattice(functions * n, 0.0);  // (l, v): values at the lattice -> moments
-    for (int l = 0; l < functions; ++l)
-      for (int r = 0; r < n; ++r)
-        for (int v = 0; v < n; ++v) tested_at_lattice[l * n + v] += tested[l * n + r] * from_lattice[r * n + v];
-
-    const LocalIndex count = patches_.size();
-    std::vector<LocalIndex> node, node_offset(1, 0), fit_offset(1, 0);
-    std::vector<double> c, fit, weight(count), diameter(count);
-    std::vector<LocalIndex> local(entries.extent(0) > 0 ? space_.coefficients().entries.size() : 0, -1);
-    std::vector<double> A, moment, at_lattice(n * n), monomial(n);
-    data_.place = View<double* [2]>("thixis::equilibration::place", count);
-    const auto place = Kokkos::create_mirror_view(data_.place);
-    for (LocalIndex a = 0; a < count; ++a) {
-      const auto first = static_cast<LocalIndex>(node.size());
-      double size = 0;
-      for (int d = 0; d < 2; ++d) place(a, d) = host.coordinates(vertex(a), d);
-      for (LocalIndex e = offset(a); e < offset(a + 1); ++e)
-        for (int i = 0; i < 3; ++i) {
-          const LocalIndex v = host.cell_vertices(cells(cell(e)), i);
-          const double dx = host.coordinates(v, 0) - place(a, 0), dy = host.coordinates(v, 1) - place(a, 1);
-          size = std::max(size, dx * dx + dy * dy);
-        }
-      size = std::sqrt(size);
-      diameter[a] = size;
-      for (LocalIndex e = offset(a); e < offset(a + 1); ++e)
-        for (int l = 0; l < functions; ++l) {
-          const LocalIndex entry = entries(cell(e), l);
-          if (!inside_patch(basis.entities()[l], corner(e)) || column(entry) < 0) continue;
-          if (local[entry] < 0) {
-            local[entry] = static_cast<LocalIndex>(node.size());
-            node.push_back(entry);
-            c.push_back(hat[corner(e)][l]);
-          }
-          weight[a] += hat[corner(e)][l] * metric(cell(e)).det * basis.integrals()[l];
-        }
-      const LocalIndex nodes = static_cast<LocalIndex>(node.size()) - first;
-      if (p > 1 && nodes >= n) {
-        // A(l, b) = (monomial_b, psi_l) over the patch, relative to its area
-        A.assign(nodes * n, 0.0);
-        for (LocalIndex e = offset(a); e < offset(a + 1); ++e) {
-          const LocalIndex k = cell(e);
-          for (int v = 0; v < n; ++v) {
-            double at[2] = {0, 0};
-            for (int i = 0; i < 3; ++i)
-              for (int d = 0; d < 2; ++d) at[d] += lattice[3 * v + i] * host.coordinates(host.cell_vertices(cells(k), i), d);
-            monomials(B_.degree, (at[0] - place(a, 0)) / size, (at[1] - place(a, 1)) / size, monomial.data());
-            for (int b = 0; b < n; ++b) at_lattice[v * n + b] = monomial[b];
-          }
-          for (int l = 0; l < functions; ++l) {
-            const LocalIndex entry = entries(k, l), at = local[entry];
-            if (!inside_patch(basis.entities()[l], corner(e)) || at < 0) continue;
-            for (int b = 0; b < n; ++b) {
-              double sum = 0;
-              for (int v = 0; v < n; ++v) sum += tested_at_lattice[l * n + v] * at_lattice[v * n + b];
-              A[(at - first) * n + b] += metric(k).det * sum;
-            }
-          }
-        }
-        append_fit(A, nodes, n, fit);
-      }
-      for (LocalIndex l = first; l < first + nodes; ++l) local[node[l]] = -1;
-      node_offset.push_back(static_cast<LocalIndex>(node.size()));
-      fit_offset.push_back(static_cast<LocalIndex>(fit.size()));
-    }
-    Kokkos::deep_copy(data_.place, place);
-    data_.node_offset = to_view("thixis::equilibration::node_offset", node_offset);
-    data_.node = to_view("thixis::equilibration::patch_nodes", node);
-    data_.hat = to_view("thixis::equilibration::hat", c);
-    data_.fit_offset = to_view("thixis::equilibration::fit_offset", fit_offset);
-    data_.fit = to_view("thixis::equilibration::fit", fit);
-    data_.weight = to_view("thixis::equilibration::patch_weight", weight);
-    data_.diameter = to_view("thixis::equilibration::patch_diameter", diameter);
-  }
-
   /// The mean of lambda in a cell is that of the values moment / (1, psi_l) of its free functions, with weights (1, psi_l)_K: exact for
   /// constants next to the held boundary and between cells of different sizes, too.
-  void set_up_means() {
+  void weigh_cells() {
     const auto& basis = space_.basis();
     const auto entries = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), space_.coefficients().element_entries);
     const auto column = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), space_.numbering().column_of_entry);
@@ -423,43 +290,6 @@ class PatchwiseMultiplier final : public NonNegativeMultiplier {
     Kokkos::deep_copy(of_mean_, host);
   }
 
-  template <class T>
-  static View<T*> to_view(const std::string& label, const std::vector<T>& values) {
-    const View<T*> view(label, values.size());
-    const auto host = Kokkos::create_mirror_view(view);
-    std::copy(values.begin(), values.end(), host.data());
-    Kokkos::deep_copy(view, host);
-    return view;
-  }
-
-  /// Appends (A^T A)^{-1} A^T; nothing if the moments do not determine the polynomial.
-  static void append_fit(const std::vector<double>& A, LocalIndex nodes, int n, std::vector<double>& fit) {
-    double scale = 0;
-    for (const double value : A) scale = std::max(scale, std::abs(value));
-    double normal[most_coefficients][2 * most_coefficients] = {};
-    for (int i = 0; i < n; ++i) {
-      normal[i][n + i] = 1;
-      for (int j = 0; j < n; ++j)
-        for (LocalIndex l = 0; l < nodes; ++l) normal[i][j] += A[l * n + i] * A[l * n + j] / (scale * scale);
-    }
-    for (int k = 0; k < n; ++k) {  // Gauss–Jordan: the matrix is symmetric and positive, or the patch has no fit
-      if (!(normal[k][k] > 1e-9)) return;
-      const double pivot = normal[k][k];
-      for (int j = 0; j < 2 * n; ++j) normal[k][j] /= pivot;
-      for (int i = 0; i < n; ++i) {
-        const double factor = normal[i][k];
-        if (i == k || factor == 0) continue;
-        for (int j = 0; j < 2 * n; ++j) normal[i][j] -= factor * normal[k][j];
-      }
-    }
-    for (int b = 0; b < n; ++b)
-      for (LocalIndex l = 0; l < nodes; ++l) {
-        double sum = 0;
-        for (int j = 0; j < n; ++j) sum += normal[b][n + j] * A[l * n + j];
-        fit.push_back(sum / (scale * scale));
-      }
-  }
-
   const method::PolynomialSpace& space_;
   int q_;
   reference::Bernstein B_;  ///< of degree p - 1
@@ -475,8 +305,8 @@ class PatchwiseMultiplier final : public NonNegativeMultiplier {
 
 }  // namespace
 
-std::unique_ptr<NonNegativeMultiplier> patchwise_multiplier(const method::PolynomialSpace& space, const std::vector<bool>& held) {
-  return std::make_unique<PatchwiseMultiplier>(space, held);
+std::unique_ptr<NonNegativeMultiplier> patchwise_multiplier(const method::PolynomialSpace& space) {
+  return std::make_unique<PatchwiseMultiplier>(space);
 }
 
 }  // namespace thixis::equilibration

@@ -1,11 +1,10 @@
 #include "vertex_patches.hpp"
 
 #include "thixis/mesh/host.hpp"
-#include "thixis/method/polynomial_space.hpp"
 
 namespace thixis::equilibration {
 
-VertexPatches vertex_patches(const mesh::Mesh& mesh, const View<const LocalIndex*>& cells, const std::vector<bool>& held) {
+VertexPatches vertex_patches(const mesh::Mesh& mesh, const View<const LocalIndex*>& cells) {
   const auto host = mesh::on_host(mesh);
   const auto position = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), cells);
   std::vector<LocalIndex> number(mesh.vertices, -1), vertices;
@@ -20,15 +19,9 @@ VertexPatches vertex_patches(const mesh::Mesh& mesh, const View<const LocalIndex
   VertexPatches patches{View<LocalIndex*>("thixis::equilibration::patch_vertex", count),
                         View<LocalIndex*>("thixis::equilibration::patch_offset", count + 1),
                         {},
-                        {},
-                        View<bool*>("thixis::equilibration::patch_held", count)};
+                        {}};
   const auto vertex = Kokkos::create_mirror_view(patches.vertex), offset = Kokkos::create_mirror_view(patches.offset);
-  const auto on_boundary = Kokkos::create_mirror_view(patches.held);
-  const auto tag = method::held_vertices(mesh, held);
-  for (std::size_t a = 0; a < count; ++a) {
-    vertex(a) = vertices[a];
-    on_boundary(a) = tag[vertices[a]] >= 0;
-  }
+  for (std::size_t a = 0; a < count; ++a) vertex(a) = vertices[a];
   const auto each = [&](auto f) {
     for (int k = 0; k < position.extent_int(0); ++k)
       for (int i = 0; i < 3; ++i)
@@ -47,7 +40,6 @@ VertexPatches vertex_patches(const mesh::Mesh& mesh, const View<const LocalIndex
   });
   Kokkos::deep_copy(patches.vertex, vertex);
   Kokkos::deep_copy(patches.offset, offset);
-  Kokkos::deep_copy(patches.held, on_boundary);
   Kokkos::deep_copy(patches.cell, cell);
   Kokkos::deep_copy(patches.corner, corner);
   return patches;

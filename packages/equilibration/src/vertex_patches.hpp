@@ -11,9 +11,8 @@ struct VertexPatches {
   View<LocalIndex*> offset;  ///< entries of patch a: offset(a) … offset(a+1)-1
   View<LocalIndex*> cell;    ///< position
   View<int*> corner;         ///< local vertex of that cell
-  View<bool*> held;          ///< on the held boundary
   LocalIndex size() const { return vertex.extent_int(0); }
 };
-VertexPatches vertex_patches(const mesh::Mesh& mesh, const View<const LocalIndex*>& cells, const std::vector<bool>& held);
+VertexPatches vertex_patches(const mesh::Mesh& mesh, const View<const LocalIndex*>& cells);
 
 }  // namespace thixis::equilibration

@@ -85,8 +85,7 @@ TEST(Adaptive, ends_where_its_criterion_holds_and_says_so) {
 TEST(Adaptive, leaves_each_linear_system_at_the_first_look_where_the_algebraic_error_is_small) {
   const Solved solved(adaptive());
   for (std::size_t i = 0; i < solved.looks.size(); ++i) {
-    if (solved.looks[i].iteration == 0) continue;
-    ASSERT_TRUE(solved.looks[i].estimate);
+    if (!solved.looks[i].estimate) continue;
     const int step = solved.looks[i].step;
     if (step > 2 && solved.steps[step - 2].changed == 0) continue;  // Newton did not get ahead: the rule is stricter
     const bool last = i + 1 == solved.looks.size() || solved.looks[i + 1].step > step;
@@ -95,17 +94,34 @@ TEST(Adaptive, leaves_each_linear_system_at_the_first_look_where_the_algebraic_e
 }
 
 TEST(Adaptive, asks_every_so_many_iterations_and_never_twice_at_one_iterate) {
-  for (const int every : {1, 2, 5}) {
-    const Solved solved(adaptive(), {}, every);
-    int looks = 0, reused = 0;
-    for (const LinearRecord& look : solved.looks) {
-      EXPECT_EQ(look.iteration % every, 0);
-      looks += look.iteration > 0;
-      reused += look.iteration == solved.steps[look.step - 1].linear_iterations;
+  for (const bool all : {true, false})
+    for (const int every : {1, 2, 5}) {
+      StoppingParams stopping = adaptive();
+      if (all) stopping.estimate = true;
+      const Solved solved(stopping, {}, every);
+      int asked = 0, reused = 0;
+      for (const LinearRecord& look : solved.looks) {
+        EXPECT_EQ(look.iteration % every, 0);
+        if (all && look.iteration > 0) {
+          EXPECT_TRUE(look.estimate);
+        }
+        asked += look.estimate.has_value();
+        reused += look.estimate && look.iteration == solved.steps[look.step - 1].linear_iterations;
+      }
+      EXPECT_GT(reused, 0);
+      EXPECT_EQ(solved.eta.calls, asked + solved.report.steps - reused);
     }
-    EXPECT_GT(reused, 0);
-    EXPECT_EQ(solved.eta.calls, looks + solved.report.steps - reused);
-  }
+}
+
+/// Where the algebraic error exceeds what is allowed by far, looks pass without an estimate until the residual has fallen accordingly.
+TEST(Adaptive, asks_no_estimate_while_the_residual_says_that_it_is_too_early) {
+  const Solved solved(adaptive(), {}, 1);
+  int passed = 0;
+  for (std::size_t i = 1; i < solved.looks.size(); ++i) passed += solved.looks[i].iteration > 0 && !solved.looks[i].estimate;
+  EXPECT_GT(passed, 0);
+  StoppingParams every_look = adaptive();
+  every_look.estimate = true;
+  EXPECT_LE(solved.report.linear_iterations, 1.2 * Solved(every_look, {}, 1).report.linear_iterations);
 }
 
 TEST(Adaptive, the_estimate_of_a_step_is_the_one_at_its_iterate_also_in_damped_steps) {

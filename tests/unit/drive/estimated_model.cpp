@@ -48,7 +48,7 @@ class Estimated final : public models::Discretization {
     return eta;
   }
   models::CellEstimates cell_estimates() const override { return cells_; }
-  std::optional<models::PublishedEstimate> published_estimate(const algebra::Vector& X, std::optional<double> friedrichs) override {
+  std::optional<models::PublishedEstimate> published_estimate(const algebra::Vector& X, std::optional<double>) override {
     models::PublishedEstimate published;
     published.parts.total = published.parts.discretization = 10 * *inner_->energy_error(X);
     published.terms = {{"residual", published.parts.total}};

@@ -70,7 +70,8 @@ struct NewtonReport {
 /// fails once but at least halves the linear residual, the step is taken and the next system is the second try; two failures in a row or
 /// a worse one end the run.
 ///
-/// **The rule `adaptive`** (docs/methods/estimates.md) stops the linear solver, asked every `check_every` iterations, and the Newton loop
+/// **The rule `adaptive`** (docs/methods/estimates.md) stops the linear solver, asked every `check_every` iterations (seldomer where the
+/// residual shows that it is still far away, unless `stopping/estimate` wants to see every look), and the Newton loop
 /// at
 ///
 ///     eta_alg <= gamma_alg max(eta_disc, eta_lin),        and, for Newton, also        eta_lin <= gamma_lin eta_disc;
