@@ -145,6 +145,7 @@ class Run {
     const algebra::Vector& X = dynamic_cast<const NoxGroup&>(solver.getSolutionGroup()).X();
     report_.estimate.reset();
     if (std::isfinite(now.residual)) report_.estimate = system_.estimate(X);
+    system_.end_step(changed_);
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
     if (observer_.step)
       observer_.step({report_.steps, system_.linear_iterations() - iterations, now.active.count(), changed_, now.residual, now.equations,

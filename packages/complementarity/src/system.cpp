@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "adaptive_rule.hpp"
 #include "thixis/core/timer.hpp"
 
 namespace thixis::complementarity {
@@ -69,7 +68,7 @@ bool System::look(const algebra::Vector& X, const algebra::Vector& dX, int itera
     Xi.update(1, dX, 1);
     forget_estimate();
     record.estimate = estimate(Xi);
-    if (stopping_.rule == StoppingRule::adaptive) enough = algebraic_error_is_small(*record.estimate, stopping_);
+    if (stopping_.rule == StoppingRule::adaptive) enough = algebraic_error_is_small(*record.estimate, stopping_, strictness_.factor());
     if (stopping_.rule == StoppingRule::inexact) {
       algebra::Vector Ri(X.getMap());
       enough = residual / rhs <= stopping_.inexact_factor * this->residual(Xi, Ri).residual / reference_;
@@ -93,6 +92,11 @@ const std::optional<Estimate>& System::estimate(const algebra::Vector& X) {
     estimate_ = estimator_(X);
   }
   return estimate_;
+}
+
+void System::end_step(long long changed) {
+  if (stopping_.rule != StoppingRule::adaptive || !estimate_) return;
+  strictness_.step(*estimate_, function_ == CFunction::min && changed == 0, stopping_);
 }
 
 void System::solve(const algebra::Vector& X, const algebra::Vector& R, algebra::Vector& dX) {

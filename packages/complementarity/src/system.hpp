@@ -1,6 +1,7 @@
 #pragma once
 #include <string>
 
+#include "adaptive_rule.hpp"
 #include "thixis/complementarity/newton.hpp"
 #include "views.hpp"
 
@@ -41,6 +42,8 @@ class System {
 
   /// The estimate at an iterate that is to be judged, if there is anybody who wants it; kept until the iterate moves.
   const std::optional<Estimate>& estimate(const algebra::Vector& X);
+  /// A step has led to the iterate of the present estimate and changed so many contact points: is Newton getting ahead?
+  void end_step(long long changed);
   /// The iterate is no longer the one that the linear solver left.
   void forget_estimate() { estimate_.reset(); }
   const StoppingParams& stopping() const { return stopping_; }
@@ -76,6 +79,7 @@ class System {
   double left_ = 0;
   int looked_at_ = 0;                 ///< last iteration of the linear solver that `look` has seen
   std::optional<Estimate> estimate_;  ///< at the present iterate
+  Strictness strictness_;             ///< of the rule `adaptive`
 };
 
 }  // namespace thixis::complementarity

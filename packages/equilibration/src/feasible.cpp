@@ -169,7 +169,8 @@ struct FeasiblePair::Impl {
 FeasiblePair::FeasiblePair(const method::PolynomialSpace& space, const Problem& problem) : impl_(std::make_unique<Impl>(space, problem)) {}
 FeasiblePair::~FeasiblePair() = default;
 
-void FeasiblePair::evaluate(const method::Coefficients (&u)[2], const ConstCellTable& lambda, int degree, Parts& parts) const {
+void FeasiblePair::evaluate(const method::Coefficients (&u)[2], const ConstCellTable& lambda, int degree, Parts& parts,
+                            double small) const {
   THIXIS_ASSERT_LE(degree, max_density_degree, "densities have tables up to that degree");
   const LocalIndex cells = impl_->space.mesh().owned_cells;
   resize(parts.whole, "thixis::equilibration::whole", cells);
@@ -194,6 +195,7 @@ void FeasiblePair::evaluate(const method::Coefficients (&u)[2], const ConstCellT
       },
       Kokkos::Max<double>(size));
   kernel.noise = 1e-13 * size;
+  kernel.small = small;
   kernel.lambda = lambda;
   kernel.density.degree = degree;
   kernel.whole = parts.whole;
@@ -205,5 +207,14 @@ void FeasiblePair::evaluate(const method::Coefficients (&u)[2], const ConstCellT
 }
 
 double FeasiblePair::boundary_energy() const { return impl_->lift->energy(); }
+
+std::size_t FeasiblePair::bytes() const {
+  const auto of = [](const auto&... views) { return (std::size_t{0} + ... + (views.span() * sizeof(*views.data()))); };
+  const FeasibleParts& k = impl_->kernel;
+  return of(impl_->data[0], impl_->data[1], impl_->averaged[0], impl_->averaged[1], k.theta, k.move_tension, k.lift.place, k.lift.energy,
+            k.lift.products, k.deviation.place, k.deviation.bound, k.deviation.at_points, k.energy.mu.at_points[0],
+            k.energy.mu.at_points[1]) +
+         (impl_->averages ? of(k.of_cells) : 0);
+}
 
 }  // namespace thixis::equilibration

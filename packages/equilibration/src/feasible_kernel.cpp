@@ -27,7 +27,7 @@ KOKKOS_FUNCTION FeasibleParts::Move FeasibleParts::move_polynomial(int K, const 
   double a[max_density];
   if (counts) density.monomials(&lambda(K, 0), a);
   const int cuts = largest(n, gap) <= noise ? 0 : NegativePart::levels;
-  const auto below = negative_part(geometry, gap, density, counts ? a : nullptr, cuts, noise);
+  const auto below = negative_part(geometry, gap, density, counts ? a : nullptr, cuts, {small / stiffness(K), 0.5 * small}, noise);
   move.square = below.square;
   move.contact += below.moment;
   return move;
@@ -117,8 +117,7 @@ KOKKOS_FUNCTION void FeasibleParts::operator()(int K) const {
   functions.to_bernstein(node_gap, gap);
   const LocalIndex place = deviation(K);
   const Move move = place < 0 ? move_polynomial(K, geometry, gap, counts) : move_pointwise(K, place, geometry, gap, counts);
-  const double stiffness = move_tension.extent(0) > 0 ? move_tension(K) : constant_move_tension;
-  const double moved = move.square > 0 ? std::sqrt(stiffness * move.square) : 0;
+  const double moved = move.square > 0 ? std::sqrt(stiffness(K) * move.square) : 0;
 
   whole(K) = (polynomial2 > 0 ? std::sqrt(polynomial2) : 0) + moved;
   at_nodes(K) = std::sqrt(nodes2);

@@ -41,6 +41,7 @@ struct FeasibleParts {
   View<const double*> move_tension;    ///< the largest of sum_alpha mu_alpha apart_alpha² in the cell; of length 0: its constant value
   double constant_move_tension;
   double noise;  ///< gaps below are round-off: bounded without being cut up
+  double small;  ///< what need not be bounded closely in a cell: of the square of the move, and of twice the contact term
 
   CellEntries of_cells_u;  ///< of u; of length 0: u = s_c
   Kokkos::View<const double*> u[2];
@@ -63,6 +64,7 @@ struct FeasibleParts {
       if (lambda(K, k) != 0) return true;
     return false;
   }
+  KOKKOS_FUNCTION double stiffness(int K) const { return move_tension.extent(0) > 0 ? move_tension(K) : constant_move_tension; }
   KOKKOS_FUNCTION Move move_polynomial(int K, const mesh::CellGeometry& geometry, const double* gap, bool counts) const;
   KOKKOS_FUNCTION Move move_pointwise(int K, LocalIndex place, const mesh::CellGeometry& geometry, const double* gap, bool counts) const;
   KOKKOS_FUNCTION double contact_of(int K, const double* gap) const {

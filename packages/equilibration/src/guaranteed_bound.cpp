@@ -19,12 +19,9 @@ namespace {
 
 using algebra::Vector;
 
-void add(const ConstCellTable& a, const CellTable& sum) {
-  Kokkos::parallel_for(
-      "thixis::equilibration::add", Kokkos::RangePolicy<>(0, sum.extent_int(0)), KOKKOS_LAMBDA(int K) {
-        for (int i = 0; i < sum.extent_int(1); ++i) sum(K, i) += a(K, i);
-      });
-}
+/// What a cell may add to the square of the bound without being looked at more closely, relative to the mean flux term of cells: no more
+/// than a hundredth of the whole in eta_disc, and 1e-4 of its square in the bound.
+constexpr double negligible = 1e-4;
 
 bool vanishes(const Vector& v) { return v.normInf() == 0; }
 
@@ -34,7 +31,8 @@ struct Membrane {
   Sources data;
   std::unique_ptr<Stress> stress;
   CellTable w, r_alg, r_lin, sigma_disc, sigma_alg, sigma_lin;
-  bool has_alg = false, has_lin = false;
+  bool has_alg = false, has_lin = false;  ///< else r and sigma are 0
+  Stress::Norms norms;
 };
 
 }  // namespace
@@ -55,8 +53,9 @@ struct GuaranteedBound::Impl {
   Matrix from_moments;
   Kokkos::View<const double***, Kokkos::LayoutRight> times;
   Metrics metric;
-  CellTable moments, lambda, positive, patch_lambda, patch_density, patch_target, sigma;
-  View<double*> h, distance, distance_disc, size_alg, size_lin, contact_lin, multiplier_rest;
+  CellTable moments, lambda, positive, patch_lambda, patch_density, patch_target;
+  View<double*> h, contact_lin, multiplier_rest;
+  bool has_positive = false;
   FeasiblePair::Parts parts;
   CellParts cells;
 
@@ -93,7 +92,6 @@ struct GuaranteedBound::Impl {
     }
     moments = table("thixis::equilibration::moments", patch_cells, space.basis().size());
     lambda = table("thixis::equilibration::lambda", owned, n);
-    sigma = table("thixis::equilibration::sigma", owned, flux);
     const CutOscillation cut_cells(space, q, problem.interface);
     for (int alpha = 0; alpha < problem.count; ++alpha) {
       Membrane& m = membrane[alpha];
@@ -106,13 +104,14 @@ struct GuaranteedBound::Impl {
       m.sigma_disc = table("thixis::equilibration::sigma_disc", owned, flux);
       m.sigma_alg = table("thixis::equilibration::sigma_alg", owned, flux);
       m.sigma_lin = table("thixis::equilibration::sigma_lin", owned, flux);
+      for (View<double*>* norm : {&m.norms.whole, &m.norms.disc, &m.norms.alg, &m.norms.lin})
+        *norm = View<double*>("thixis::equilibration::flux_norm", owned);
     }
     const reference::Modal modal(space.basis().degree());
     const int functions = space.basis().size();
     from_moments = matrix("thixis::equilibration::from_moments", functions, functions, equilibration::from_moments(space.basis(), modal));
     times = times_hats(q);
-    for (View<double*>* of_cells : {&h, &distance, &distance_disc, &size_alg, &size_lin, &contact_lin, &multiplier_rest,
-                                    &cells.discretization, &cells.linearization, &cells.algebraic})
+    for (View<double*>* of_cells : {&h, &contact_lin, &multiplier_rest, &cells.discretization, &cells.linearization, &cells.algebraic})
       *of_cells = View<double*>("thixis::equilibration::of_cells", owned);
     const auto diameter = diameters(mesh);
     const auto h_host = Kokkos::create_mirror_view(h);
@@ -120,32 +119,59 @@ struct GuaranteedBound::Impl {
     Kokkos::deep_copy(h, h_host);
   }
 
-  /// R as a polynomial in every patch cell; false where it is zero.
-  bool represent(const Vector& R, const CellTable& r) const {
-    if (vanishes(R)) {
-      Kokkos::deep_copy(r, 0);
-      return false;
+  /// R as a polynomial in every patch cell. `has`: whether r is not 0, in and out.
+  void represent(const Vector& R, const CellTable& r, bool& has) const {
+    const bool had = has;
+    has = !vanishes(R);
+    if (!has) {
+      if (had) Kokkos::deep_copy(r, 0);
+      return;
     }
     space.share(R, moments);
     Kokkos::parallel_for("thixis::equilibration::represent", Kokkos::RangePolicy<>(0, patch_cells), Represent{moments, from_moments, r});
-    return true;
   }
 
-  void equilibrate(const Iterate& iterate, int alpha, const Vector& cut_off) {
-    Membrane& m = membrane[alpha];
-    m.has_alg = represent(*iterate.residual[alpha], m.r_alg);
-    m.has_lin = represent(cut_off, m.r_lin);
-    for (const auto& [has, r, flux_of] : {std::tuple(m.has_alg, m.r_alg, m.sigma_alg), std::tuple(m.has_lin, m.r_lin, m.sigma_lin)}) {
-      if (has) lift(r, flux_of);
-      else Kokkos::deep_copy(flux_of, 0);
-    }
-    (*m.stress)(iterate.u[alpha], m.w);
+  /// The residual, its representative and its lift.
+  void lift_residual(const Vector& R, const CellTable& r, const CellTable& sigma, bool& has) const {
+    const bool had = has;
+    represent(R, r, has);
+    if (has) lift(r, sigma);
+    else if (had) Kokkos::deep_copy(sigma, 0);
+  }
+
+  void discretization_flux(const Iterate& iterate, int alpha) const {
+    const Membrane& m = membrane[alpha];
     if (!patches)
       return space.native_flux(*problem.tension[alpha], *problem.force[alpha], iterate.u[alpha], problem.boundary[alpha], 0, m.sigma_disc);
     Kokkos::parallel_for(
         "thixis::equilibration::patch_data", Kokkos::RangePolicy<>(0, patch_cells),
         PatchSources{m.data.force, m.r_alg, m.r_lin, patch_lambda, m.w, alpha == 0 ? 1.0 : -1.0, times, patch_density, patch_target});
     (*patches)({patch_density, patch_target, m.data.traction}, m.sigma_disc);
+  }
+
+  /// The fluxes of a membrane and their norms.
+  void equilibrate(const Iterate& iterate, int alpha, const Vector& cut_off) {
+    Membrane& m = membrane[alpha];
+    lift_residual(*iterate.residual[alpha], m.r_alg, m.sigma_alg, m.has_alg);
+    lift_residual(cut_off, m.r_lin, m.sigma_lin, m.has_lin);
+    (*m.stress)(iterate.u[alpha], m.w);
+    discretization_flux(iterate, alpha);
+    const auto if_any = [](bool has, const CellTable& sigma) { return has ? ConstCellTable(sigma) : ConstCellTable(); };
+    m.stress->norms(iterate.u[alpha], m.w, {m.sigma_disc, if_any(m.has_alg, m.sigma_alg), if_any(m.has_lin, m.sigma_lin)}, m.norms);
+  }
+
+  /// The mean over all cells of sum_alpha |mu^{1/2} grad u_h + mu^{-1/2} sigma_alpha|²_K. Collective.
+  double mean_flux_term() const {
+    double sum = 0;
+    for (int alpha = 0; alpha < problem.count; ++alpha) {
+      double square = 0;
+      const auto whole = membrane[alpha].norms.whole;
+      Kokkos::parallel_reduce(
+          "thixis::equilibration::flux_term", Kokkos::RangePolicy<>(0, owned),
+          KOKKOS_LAMBDA(int K, double& of_cells) { of_cells += whole(K) * whole(K); }, square);
+      sum += square;
+    }
+    return comm.sum(sum) / static_cast<double>(mesh.global_cells);
   }
 
   /// Values at contact points, 0 at other unknowns.
@@ -188,7 +214,8 @@ struct GuaranteedBound::Impl {
   /// Where the method has its own fluxes: |lambda^ - Pi_q lambda_h^+|_K, lambda_h^+ the function with the moments M.
   void compare_multipliers(const Vector& above) {
     if (patches) return;
-    if (!represent(above, positive)) return Kokkos::deep_copy(multiplier_rest, 0);
+    represent(above, positive, has_positive);
+    if (!has_positive) return Kokkos::deep_copy(multiplier_rest, 0);
     const ConstCellTable exact = positive, ours = lambda;
     const auto det = metric;
     const auto out = multiplier_rest;
@@ -200,12 +227,12 @@ struct GuaranteedBound::Impl {
         });
   }
 
-  complementarity::Estimate sum_up(const Iterate& iterate);
+  complementarity::Estimate sum_up();
   void find_worst_cells(complementarity::Estimate& eta) const;
 };
 
 /// The bound, its parts, and those of every cell.
-complementarity::Estimate GuaranteedBound::Impl::sum_up(const Iterate& iterate) {
+complementarity::Estimate GuaranteedBound::Impl::sum_up() {
   enum { of_flux, of_disc, of_alg, of_lin, of_whole, of_rest, of_nodes, contact, contact_nodes, count };
   std::vector<double> sum(count, 0.0);
   const auto on_host = [](const auto& v) { return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), v); };
@@ -213,15 +240,8 @@ complementarity::Estimate GuaranteedBound::Impl::sum_up(const Iterate& iterate) 
   const auto h_K = on_host(h), rest_of_multiplier = on_host(multiplier_rest);
   for (int alpha = 0; alpha < problem.count; ++alpha) {
     const Membrane& m = membrane[alpha];
-    m.stress->distance(iterate.u[alpha], m.w, m.sigma_disc, distance_disc);
-    Kokkos::deep_copy(sigma, m.sigma_disc);
-    if (m.has_alg) add(m.sigma_alg, sigma);
-    if (m.has_lin) add(m.sigma_lin, sigma);
-    m.stress->distance(iterate.u[alpha], m.w, sigma, distance);
-    m.stress->size(m.sigma_alg, size_alg);
-    m.stress->size(m.sigma_lin, size_lin);
-    const auto volume = on_host(m.data.sharp_oscillation), traction = on_host(m.data.traction_oscillation), all = on_host(distance),
-               disc = on_host(distance_disc), alg = on_host(size_alg), lin = on_host(size_lin);
+    const auto volume = on_host(m.data.sharp_oscillation), traction = on_host(m.data.traction_oscillation), all = on_host(m.norms.whole),
+               disc = on_host(m.norms.disc), alg = on_host(m.norms.alg), lin = on_host(m.norms.lin);
     for (LocalIndex K = 0; K < owned; ++K) {
       const double of_lambda = patches ? 0 : poincare * h_K(K) * rest_of_multiplier(K) / std::sqrt(m.least_tension[K]);
       const double oscillation = volume(K) + of_lambda + traction(K);
@@ -295,9 +315,9 @@ complementarity::Estimate GuaranteedBound::operator()(const Iterate& iterate) {
     in.equilibrate(iterate, alpha, cut_off);  // R_lin = (-1)^alpha D min(X3, 0)
     cut_off.scale(-1);
   }
-  in.feasible.evaluate(iterate.u, in.lambda, in.q, in.parts);
+  in.feasible.evaluate(iterate.u, in.lambda, in.q, in.parts, negligible * in.mean_flux_term());
   in.contact_at_points(above, *iterate.gap);
-  return in.sum_up(iterate);
+  return in.sum_up();
 }
 
 const GuaranteedBound::CellParts& GuaranteedBound::cells() const { return impl_->cells; }
@@ -318,14 +338,15 @@ GuaranteedBound::Fluxes GuaranteedBound::fluxes(int alpha) const {
 
 std::size_t GuaranteedBound::bytes() const {
   const Impl& in = *impl_;
-  std::size_t tables = in.moments.size() + in.lambda.size() + in.positive.size() + in.patch_lambda.size() + in.patch_density.size() +
-                       in.patch_target.size() + in.sigma.size();
+  std::size_t tables =
+      in.moments.size() + in.lambda.size() + in.positive.size() + in.patch_lambda.size() + in.patch_density.size() + in.patch_target.size();
   for (int alpha = 0; alpha < in.problem.count; ++alpha) {
     const Membrane& m = in.membrane[alpha];
     tables +=
         m.data.force.size() + m.w.size() + m.r_alg.size() + m.r_lin.size() + m.sigma_disc.size() + m.sigma_alg.size() + m.sigma_lin.size();
   }
-  return sizeof(double) * tables + in.lift.bytes() + in.multiplier->bytes() + (in.patches ? in.patches->bytes() : 0);
+  tables += in.owned * (10 + 4 * in.problem.count);  // parts and norms of cells
+  return sizeof(double) * tables + in.lift.bytes() + in.feasible.bytes() + in.multiplier->bytes() + (in.patches ? in.patches->bytes() : 0);
 }
 
 }  // namespace thixis::equilibration

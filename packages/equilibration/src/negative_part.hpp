@@ -10,6 +10,8 @@ namespace thixis::equilibration {
 ///
 ///     square:   ∫_{g<0} |grad g|²        <=  min(∫ |grad g|²,  |{l < d}| max |grad g|²),
 ///     moment:   ∫ density max(-g, 0)     <=  ∫ density (sum_k max(-c_k, 0) B_k).
+///
+/// Parts whose square is negligible are cut no further than twice, as long as their moment is not.
 struct NegativePart {
   static constexpr int levels = 5;
 
@@ -24,11 +26,14 @@ struct NegativePart {
   struct Bounds {
     double square = 0, moment = 0;
   };
-  /// `a`: monomials of the density, null where it is 0. `cuts`: how often the cell may be cut, at most `levels`.
-  /// `round_off`: of the coefficients. Corners of parts are nodes, where gaps are closed; its sign is not to decide whether a part counts.
+  /// `a`: monomials of the density, null where it is 0. `cuts`: how often the cell may be cut, at most `levels`. `small`: what is
+  /// negligible. `round_off`: of the coefficients. Corners of parts are nodes, where gaps are closed; its sign is not to decide whether a
+  /// part counts.
   KOKKOS_FUNCTION Bounds operator()(const mesh::CellGeometry& K, const double* c, const DensityValues& density, const double* a, int cuts,
-                                    double round_off) const {
+                                    const Bounds& small, double round_off) const {
     const int n = B.size;
+    double largest_density = 0;
+    for (int i = 0; a && i < reference::dimension(density.degree); ++i) largest_density += a[i] < 0 ? -a[i] : a[i];
     Part stack[3 * levels + 1];
     int top = 0;
     for (int k = 0; k < n; ++k) stack[0].c[k] = c[k];
@@ -51,7 +56,8 @@ struct NegativePart {
       if (high > round_off) {
         const double some = steepest(K, part) * share_below(part);
         square = some < square ? some : square;
-        if (part.cuts > 0 && square > negligible) {
+        const bool for_moment = part.cuts > cuts - 2 && -low * largest_density * 0.5 * part.scale * part.scale > small.moment;
+        if (part.cuts > 0 && square > negligible && (square > small.square || for_moment)) {
           for (int i = 0; i < 4; ++i) child(part, i, stack[++top]);
           continue;
         }

@@ -336,8 +336,10 @@ class PatchwiseMultiplier final : public NonNegativeMultiplier {
       for (LocalIndex e = offset(a); e < offset(a + 1); ++e)
         for (int i = 0; i < 3; ++i) {
           const LocalIndex v = host.cell_vertices(cells(cell(e)), i);
-          size = std::max(size, std::hypot(host.coordinates(v, 0) - place(a, 0), host.coordinates(v, 1) - place(a, 1)));
+          const double dx = host.coordinates(v, 0) - place(a, 0), dy = host.coordinates(v, 1) - place(a, 1);
+          size = std::max(size, dx * dx + dy * dy);
         }
+      size = std::sqrt(size);
       diameter[a] = size;
       for (LocalIndex e = offset(a); e < offset(a + 1); ++e)
         for (int l = 0; l < functions; ++l) {

@@ -187,7 +187,7 @@ class Evaluation {
         disc("thixis::equilibration::sigma_disc", owned, flux), alg("thixis::equilibration::sigma_alg", owned, flux);
     const CellTable of_lambda = of_vertices(space_, lambda, q_);
     const View<double*> all_K("thixis::equilibration::all", owned), disc_K("thixis::equilibration::disc", owned),
-        alg_K("thixis::equilibration::alg", owned);
+        alg_K("thixis::equilibration::alg", owned), lin_K("thixis::equilibration::lin", owned);
     std::vector<double> sum(5, 0.0);
     for (int alpha = 0; alpha < problem_.count; ++alpha) {
       const Sources data = sources(space_, q_, *problem_.force[alpha], problem_.boundary[alpha], nullptr, least_[alpha]);
@@ -199,13 +199,7 @@ class Evaluation {
       Kokkos::parallel_for("thixis::equilibration::patch_data", Kokkos::RangePolicy<>(0, cells),
                            PatchSources{data.force, r, none, of_lambda, w, alpha == 0 ? 1.0 : -1.0, times_hats(q_), density, target});
       patches({density, target, data.traction}, disc);
-      stress->distance(iterate_.u[alpha], w, disc, disc_K);
-      stress->size(alg, alg_K);
-      Kokkos::parallel_for(
-          "thixis::equilibration::add", Kokkos::RangePolicy<>(0, owned), KOKKOS_LAMBDA(int K) {
-            for (int i = 0; i < flux; ++i) disc(K, i) += alg(K, i);
-          });
-      stress->distance(iterate_.u[alpha], w, disc, all_K);
+      stress->norms(iterate_.u[alpha], w, {disc, alg, {}}, {all_K, disc_K, alg_K, lin_K});
       const auto on_host = [](const auto& v) { return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), v); };
       const auto F = on_host(all_K), D = on_host(disc_K), A = on_host(alg_K), R = on_host(data.oscillation);
       for (LocalIndex K = 0; K < owned; ++K) {

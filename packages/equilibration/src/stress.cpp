@@ -63,53 +63,51 @@ struct FillConstant {
   }
 };
 
-/// |w + sigma|_K / √mu
-struct Distance {
-  ConstCellTable w, sigma;
+KOKKOS_INLINE_FUNCTION double root(double square) { return Kokkos::Experimental::sqrt(square > 0 ? square : 0); }
+
+/// v += sigma(K, ·), which may be of length 0.
+KOKKOS_INLINE_FUNCTION void add(const ConstCellTable& sigma, int K, double (&v)[2][most_modes]) {
+  const int m = sigma.extent_int(1) / 2;
+  for (int d = 0; d < 2; ++d)
+    for (int i = 0; i < m; ++i) v[d][i] += sigma(K, d * m + i);
+}
+
+KOKKOS_INLINE_FUNCTION double size(const ConstCellTable& sigma, const Metric& metric, int K) {
+  const int m = sigma.extent_int(1) / 2;
+  return m == 0 ? 0 : root(metric.square(&sigma(K, 0), &sigma(K, m), m));
+}
+
+struct ConstantNorms {
+  ConstCellTable w;
+  Stress::Fluxes sigma;
   Metrics metric;
-  double factor;
-  View<double*> norm;  ///< out, overwritten
+  double factor;       ///< mu^{-1/2}
+  Stress::Norms norm;  ///< out, overwritten
   KOKKOS_FUNCTION void operator()(int K) const {
-    const int n = w.extent_int(1) / 2, m = sigma.extent_int(1) / 2;
+    const int n = w.extent_int(1) / 2, m = sigma.disc.extent_int(1) / 2;
+    const Metric M = metric(K);
     double v[2][most_modes];
     for (int d = 0; d < 2; ++d)
-      for (int i = 0; i < m; ++i) v[d][i] = sigma(K, d * m + i) + (i < n ? w(K, d * n + i) : 0);
-    const double square = metric(K).square(v[0], v[1], m);
-    norm(K) = factor * Kokkos::Experimental::sqrt(square > 0 ? square : 0);
-  }
-};
-
-struct Size {
-  ConstCellTable sigma;
-  Metrics metric;
-  View<const double*> factor;  ///< mu^{-1/2}
-  View<double*> norm;          ///< out, overwritten
-  KOKKOS_FUNCTION void operator()(int K) const {
-    const int m = sigma.extent_int(1) / 2;
-    const double square = metric(K).square(&sigma(K, 0), &sigma(K, m), m);
-    norm(K) = factor(K) * Kokkos::Experimental::sqrt(square > 0 ? square : 0);
+      for (int i = 0; i < m; ++i) v[d][i] = sigma.disc(K, d * m + i) + (i < n ? w(K, d * n + i) : 0);
+    norm.disc(K) = factor * root(M.square(v[0], v[1], m));
+    add(sigma.alg, K, v);
+    add(sigma.lin, K, v);
+    norm.whole(K) = factor * root(M.square(v[0], v[1], m));
+    norm.alg(K) = factor * size(sigma.alg, M, K);
+    norm.lin(K) = factor * size(sigma.lin, M, K);
   }
 };
 
 class StressBase : public Stress {
  public:
-  StressBase(const method::PolynomialSpace& space, const std::vector<double>& least)
+  explicit StressBase(const method::PolynomialSpace& space)
       : gradient_{space.coefficients().element_entries,
                   {},
                   matrix("thixis::equilibration::gradient", 2 * reference::dimension(space.basis().degree() - 1), space.basis().size(),
                          reference_gradient(space.basis())),
                   metrics(space.mesh(), space.cells())},
         cells_(space.cells().extent_int(0)),
-        owned_(space.mesh().owned_cells),
-        factor_("thixis::equilibration::inverse_root_tension", owned_) {
-    const auto host = Kokkos::create_mirror_view(factor_);
-    for (LocalIndex K = 0; K < owned_; ++K) host(K) = 1 / std::sqrt(least[K]);
-    Kokkos::deep_copy(factor_, host);
-  }
-  void size(const ConstCellTable& sigma, const View<double*>& norm) const override {
-    Kokkos::parallel_for("thixis::equilibration::flux_size", Kokkos::RangePolicy<>(0, owned_),
-                         Size{sigma, gradient_.metric, factor_, norm});
-  }
+        owned_(space.mesh().owned_cells) {}
 
  protected:
   Gradient of(const method::Coefficients& u) const {
@@ -119,19 +117,17 @@ class StressBase : public Stress {
   }
   Gradient gradient_;
   LocalIndex cells_, owned_;
-  View<double*> factor_;
 };
 
 class ConstantStress final : public StressBase {
  public:
-  ConstantStress(const method::PolynomialSpace& space, double mu, const std::vector<double>& least) : StressBase(space, least), mu_(mu) {}
+  ConstantStress(const method::PolynomialSpace& space, double mu) : StressBase(space), mu_(mu) {}
   void operator()(const method::Coefficients& u, const CellTable& w) const override {
     Kokkos::parallel_for("thixis::equilibration::stress", Kokkos::RangePolicy<>(0, cells_), FillConstant{of(u), mu_, w});
   }
-  void distance(const method::Coefficients&, const ConstCellTable& w, const ConstCellTable& sigma,
-                const View<double*>& norm) const override {
-    Kokkos::parallel_for("thixis::equilibration::distance", Kokkos::RangePolicy<>(0, owned_),
-                         Distance{w, sigma, gradient_.metric, 1 / std::sqrt(mu_), norm});
+  void norms(const method::Coefficients&, const ConstCellTable& w, const Fluxes& sigma, const Norms& norm) const override {
+    Kokkos::parallel_for("thixis::equilibration::norms", Kokkos::RangePolicy<>(0, owned_),
+                         ConstantNorms{w, sigma, gradient_.metric, 1 / std::sqrt(mu_), norm});
   }
 
  private:
@@ -177,38 +173,52 @@ struct FillVarying {
   }
 };
 
-/// ∫_K |mu grad u + sigma|²/mu
-struct DistanceVarying {
+/// ∫_K |mu grad u + sigma|²/mu by quadrature, of the part that is left by the solvers and of the whole.
+struct VaryingNorms {
   Gradient gradient;
   Points points;
-  ConstCellTable sigma;
-  View<double*> norm;  ///< out, overwritten
+  Stress::Fluxes sigma;
+  View<const double*> factor;  ///< mu^{-1/2} from above
+  Stress::Norms norm;          ///< out, overwritten
   KOKKOS_FUNCTION void operator()(int K) const {
-    const int few = gradient.D.extent_int(0) / 2, n = sigma.extent_int(1) / 2;
+    const int few = gradient.D.extent_int(0) / 2, n = sigma.disc.extent_int(1) / 2;
     const Metric& M = gradient.metric(K);
-    double g[2][most_modes], sum = 0;
+    double g[2][most_modes], disc[2][most_modes] = {}, rest[2][most_modes] = {}, sum[2] = {0, 0};
     gradient(K, g[0], g[1]);
+    add(sigma.disc, K, disc);
+    add(sigma.alg, K, rest);
+    add(sigma.lin, K, rest);
     for (int q = 0; q < points.count(K); ++q) {
       const double* const phi = points.phi(K, q);
-      const double mu = points.tension(K, q);
-      double v[2];
+      const double mu = points.tension(K, q), weight = points.weight(K, q) / mu;
+      double v[2][2] = {};
       for (int d = 0; d < 2; ++d) {
         double slope = 0;
-        v[d] = 0;
         for (int m = 0; m < few; ++m) slope += g[d][m] * phi[m];
-        for (int m = 0; m < n; ++m) v[d] += sigma(K, d * n + m) * phi[m];
-        v[d] += mu * slope;
+        for (int m = 0; m < n; ++m) {
+          v[0][d] += disc[d][m] * phi[m];
+          v[1][d] += rest[d][m] * phi[m];
+        }
+        v[0][d] += mu * slope;
+        v[1][d] += v[0][d];
       }
-      sum += points.weight(K, q) / mu * (M.G00 * v[0] * v[0] + 2 * M.G01 * v[0] * v[1] + M.G11 * v[1] * v[1]);
+      for (int i = 0; i < 2; ++i)
+        sum[i] += weight * (M.G00 * v[i][0] * v[i][0] + 2 * M.G01 * v[i][0] * v[i][1] + M.G11 * v[i][1] * v[i][1]);
     }
-    norm(K) = Kokkos::Experimental::sqrt(sum > 0 ? sum : 0);
+    norm.disc(K) = root(sum[0]);
+    norm.whole(K) = root(sum[1]);
+    norm.alg(K) = factor(K) * size(sigma.alg, M, K);
+    norm.lin(K) = factor(K) * size(sigma.lin, M, K);
   }
 };
 
 class VaryingStress final : public StressBase {
  public:
   VaryingStress(const method::PolynomialSpace& space, int q, const scene::Field& tension, const std::vector<double>& least)
-      : StressBase(space, least) {
+      : StressBase(space), factor_("thixis::equilibration::inverse_root_tension", owned_) {
+    const auto host = Kokkos::create_mirror_view(factor_);
+    for (LocalIndex K = 0; K < owned_; ++K) host(K) = 1 / std::sqrt(least[K]);
+    Kokkos::deep_copy(factor_, host);
     const auto& quadrature = space.quadrature();
     const reference::Modal modal(std::max(q + 1, space.basis().degree()));
     const auto table = [&](const std::string& label, const View<const double* [2]>& points) {
@@ -221,21 +231,21 @@ class VaryingStress final : public StressBase {
   void operator()(const method::Coefficients& u, const CellTable& w) const override {
     Kokkos::parallel_for("thixis::equilibration::stress_varying", Kokkos::RangePolicy<>(0, cells_), FillVarying{of(u), points_, w});
   }
-  void distance(const method::Coefficients& u, const ConstCellTable&, const ConstCellTable& sigma,
-                const View<double*>& norm) const override {
-    Kokkos::parallel_for("thixis::equilibration::distance_varying", Kokkos::RangePolicy<>(0, owned_),
-                         DistanceVarying{of(u), points_, sigma, norm});
+  void norms(const method::Coefficients& u, const ConstCellTable&, const Fluxes& sigma, const Norms& norm) const override {
+    Kokkos::parallel_for("thixis::equilibration::norms_varying", Kokkos::RangePolicy<>(0, owned_),
+                         VaryingNorms{of(u), points_, sigma, factor_, norm});
   }
 
  private:
   Points points_;
+  View<double*> factor_;
 };
 
 }  // namespace
 
 std::unique_ptr<Stress> make_stress(const method::PolynomialSpace& space, int q, const scene::Field& tension,
                                     const std::vector<double>& least) {
-  if (const double* constant = tension.constant()) return std::make_unique<ConstantStress>(space, *constant, least);
+  if (const double* constant = tension.constant()) return std::make_unique<ConstantStress>(space, *constant);
   return std::make_unique<VaryingStress>(space, q, tension, least);
 }
 

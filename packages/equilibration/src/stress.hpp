@@ -12,11 +12,17 @@ class Stress {
   virtual ~Stress() = default;
   /// w(k, [2][dim P_q]): modal coefficients of mu grad u_h (its projection on P_q² where the tension varies) on all patch cells.
   virtual void operator()(const method::Coefficients& u, const CellTable& w) const = 0;
-  /// |mu^{1/2} grad u + mu^{-1/2} sigma|_K on the owned cells; sigma (K, 2 dim P_{q+1}), w as above.
-  virtual void distance(const method::Coefficients& u, const ConstCellTable& w, const ConstCellTable& sigma,
-                        const View<double*>& norm) const = 0;
-  /// |mu^{-1/2} sigma|_K, from above.
-  virtual void size(const ConstCellTable& sigma, const View<double*>& norm) const = 0;
+  /// Fluxes on the owned cells, (K, 2 dim P_{q+1}); one of length 0 is 0.
+  struct Fluxes {
+    ConstCellTable disc, alg, lin;
+  };
+  struct Norms {
+    View<double*> whole;     ///< |mu^{1/2} grad u + mu^{-1/2} (disc + alg + lin)|_K
+    View<double*> disc;      ///< |mu^{1/2} grad u + mu^{-1/2} disc|_K
+    View<double*> alg, lin;  ///< |mu^{-1/2} alg|_K, |mu^{-1/2} lin|_K, from above
+  };
+  /// In one pass over the fluxes; w as above. Overwrites the norms.
+  virtual void norms(const method::Coefficients& u, const ConstCellTable& w, const Fluxes& sigma, const Norms& norm) const = 0;
 };
 
 /// `least`: of the tension in each owned cell.

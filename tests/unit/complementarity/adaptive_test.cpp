@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "dense_problem.hpp"
@@ -86,8 +87,10 @@ TEST(Adaptive, leaves_each_linear_system_at_the_first_look_where_the_algebraic_e
   for (std::size_t i = 0; i < solved.looks.size(); ++i) {
     if (solved.looks[i].iteration == 0) continue;
     ASSERT_TRUE(solved.looks[i].estimate);
-    const bool last = i + 1 == solved.looks.size() || solved.looks[i + 1].step > solved.looks[i].step;
-    EXPECT_EQ(last, algebraic_small(*solved.looks[i].estimate, adaptive())) << "step " << solved.looks[i].step;
+    const int step = solved.looks[i].step;
+    if (step > 2 && solved.steps[step - 2].changed == 0) continue;  // Newton did not get ahead: the rule is stricter
+    const bool last = i + 1 == solved.looks.size() || solved.looks[i + 1].step > step;
+    EXPECT_EQ(last, algebraic_small(*solved.looks[i].estimate, adaptive())) << "step " << step;
   }
 }
 
@@ -196,6 +199,23 @@ TEST(Adaptive, a_criterion_out_of_reach_leaves_the_exact_rule) {
   EXPECT_TRUE(report.converged) << report.why;
   EXPECT_EQ(report.steps, same.steps);
   EXPECT_EQ(report.linear_iterations, same.linear_iterations);
+}
+
+TEST(Adaptive, where_newton_stands_still_linear_systems_are_solved_better) {
+  const auto stands = [](const algebra::Vector&) {
+    return Estimate{12, 1, 10, 0.5, 0, 0};
+  };  // gamma_alg eta_lin = 3, gamma_alg eta_disc = 0.3
+  DenseProblem problem(string_over_obstacle(32));
+  problem.linear.rate = 0.9;
+  std::vector<int> iterations;
+  NewtonObserver observer;
+  observer.step = [&](const NewtonRecord& record) { iterations.push_back(record.linear_iterations); };
+  algebra::Vector X(problem.map());
+  const NewtonReport report = newton(problem, X, {}, adaptive(), 1, observer, stands);
+  EXPECT_TRUE(report.converged) << report.why;
+  EXPECT_EQ(iterations.front(), 1);
+  EXPECT_GT(*std::max_element(iterations.begin(), iterations.end()), 20);
+  EXPECT_LE(iterations.size(), 40u);
 }
 
 TEST(Adaptive, other_rules_ask_for_no_estimate_unless_the_user_does) {

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "thixis/reference/cell_basis.hpp"
+
 namespace thixis::reference {
 namespace {
 

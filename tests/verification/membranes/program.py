@@ -164,6 +164,49 @@ class ExitCodes(unittest.TestCase):
         self.assertIn("is a file", result.stderr)
 
 
+class Guaranteed(unittest.TestCase):
+    def test_a_target_that_can_not_be_reached_exits_4_with_the_best_bound(self):
+        bounds = []
+        for ranks in (1, 2, 3):
+            run = Run(f"out_of_reach_{ranks}", ["stopping/target=1e-9", "adapt/max unknowns=1000", "mesh/cells per rank=20"], ranks,
+                      deck=INPUTS / "target.xml")
+            self.assertEqual(run.exit_code, 4, run.out + run.err)
+            summary = run.summary
+            self.assertEqual(summary["exit_code"], 4)
+            self.assertRegex(summary["verdict"], r"^target missed: energy error at most .* \(guaranteed\), not 1e-09; refinement ended by "
+                                                 r"adapt/max unknowns = 1000; besides, not as expected: ")
+            levels = [float(row["eta_total"]) for row in run.history if not row["newton"]]
+            bounds.append(summary["estimate"]["total"])
+            self.assertAlmostEqual(bounds[-1] / min(levels), 1, delta=1e-12)
+            self.assertLessEqual(summary["energy_error"], bounds[-1])
+            self.assertLessEqual(summary["unknowns"]["all"], 1000)
+            self.assertTrue((run.folder / "fields.h5").exists())
+        self.assertLess(max(bounds) / min(bounds) - 1, 1e-6)
+
+    def test_cells_gather_at_the_edge_of_contact(self):
+        try:
+            import meshio
+            import numpy
+        except ImportError as missing:
+            self.skipTest(f"{missing} (Debian: python3-meshio)")
+        run = Run("gathered", ["stopping/target=1e-3"], deck=INPUTS / "adaptive_mesh.xml")
+        self.assertEqual(run.exit_code, 0, run.out + run.err)
+        mesh = meshio.read(run.folder / "fields.xdmf")
+        self.assertEqual(set(mesh.cell_data), {"eta_disc", "eta_lin", "eta_alg"})
+        for name, (values,) in mesh.cell_data.items():
+            self.assertTrue(numpy.isfinite(values).all() and (values >= 0).all(), name)
+        centre = mesh.points[:, :2][mesh.cells[0].data].mean(axis=1) - 0.5
+        near = abs(numpy.hypot(centre[:, 0], centre[:, 1]) - 1 / 3) < 0.05  # a ring with 21 % of the area
+        self.assertGreater(near.mean(), 1.5 * 0.21)
+
+    def test_the_adaptive_rule_saves_two_of_three_iterations(self):
+        deck = INPUTS / "adaptive_stopping.xml"
+        adaptive = Run("adaptive_rule", deck=deck).summary
+        exact = Run("exact_rule", ["stopping/rule=exact", "adapt/max levels=0"], deck=deck).summary
+        self.assertLess(3 * adaptive["linear_iterations"], exact["linear_iterations"])
+        self.assertLess(adaptive["estimate"]["total"], 1.05 * exact["estimate"]["total"])
+
+
 class Choices(unittest.TestCase):
     def test_quiet_shows_the_verdict_only(self):
         for ranks in (1, 2):

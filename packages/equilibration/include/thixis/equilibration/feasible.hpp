@@ -45,10 +45,12 @@ class FeasiblePair {
   };
   /// u: coefficients of each membrane; those of a conforming space take Space::lift of the data on the held boundary (Bernstein: brought in
   /// order, docs/methods/membranes.md, 5). Over an obstacle only u[0] is read. `lambda`: the non-negative multiplier, densities of degree
-  /// `degree` <= 6 in modal coefficients (owned cell, dim P_degree). Collective. Overwrites `parts`, which may be empty at first.
-  void evaluate(const method::Coefficients (&u)[2], const ConstCellTable& lambda, int degree, Parts& parts) const;
+  /// `degree` <= 6 in modal coefficients (owned cell, dim P_degree). Overwrites `parts`, which may be empty at first. Gaps that count less
+  /// than `small` in a cell, as a part of |||s - u_h|||²_K and of 2 (lambda, s_1 - s_2)_K, are bounded more coarsely. Collective.
+  void evaluate(const method::Coefficients (&u)[2], const ConstCellTable& lambda, int degree, Parts& parts, double small = 0) const;
   /// |||lift of g - g_h||| over all cells.
   double boundary_energy() const;
+  std::size_t bytes() const;  ///< held for the mesh
 
  private:
   struct Impl;
