@@ -27,7 +27,7 @@ KOKKOS_FUNCTION FeasibleParts::Move FeasibleParts::move_polynomial(int K, const 
   double a[max_density];
   if (counts) density.monomials(&lambda(K, 0), a);
   const int cuts = largest(n, gap) <= noise ? 0 : NegativePart::levels;
-  const auto below = negative_part(geometry, gap, density, counts ? a : nullptr, cuts, {small / stiffness(K), 0.5 * small});
+  const auto below = negative_part(geometry, gap, density, counts ? a : nullptr, cuts, {small / stiffness(K), 0.5 * small}, noise);
   move.square = below.square;
   move.contact += below.moment;
   return move;

@@ -5,8 +5,8 @@
 namespace thixis::equilibration {
 
 /// Bounds from above on integrals over {g < 0} in a cell, for polynomials g in Bernstein coefficients. The cell is cut into four (red)
-/// `levels` times where the coefficients have both signs. A part with coefficients >= 0 gives nothing, one with coefficients <= 0 counts
-/// fully, in what is mixed at last g >= l - d with a linear function l, so that
+/// `levels` times where the coefficients have both signs. A part with coefficients >= 0 (up to round-off) gives nothing, one with
+/// coefficients <= 0 counts fully, in what is mixed at last g >= l - d with a linear function l, so that
 ///
 ///     square:   ∫_{g<0} |grad g|²        <=  min(∫ |grad g|²,  |{l < d}| max |grad g|²),
 ///     moment:   ∫ density max(-g, 0)     <=  ∫ density (sum_k max(-c_k, 0) B_k).
@@ -27,9 +27,10 @@ struct NegativePart {
     double square = 0, moment = 0;
   };
   /// `a`: monomials of the density, null where it is 0. `cuts`: how often the cell may be cut, at most `levels`. `small`: what is
-  /// negligible.
+  /// negligible. `round_off`: of the coefficients. Corners of parts are nodes, where gaps are closed; its sign is not to decide whether a
+  /// part counts.
   KOKKOS_FUNCTION Bounds operator()(const mesh::CellGeometry& K, const double* c, const DensityValues& density, const double* a, int cuts,
-                                    const Bounds& small) const {
+                                    const Bounds& small, double round_off) const {
     const int n = B.size;
     double largest_density = 0;
     for (int i = 0; a && i < reference::dimension(density.degree); ++i) largest_density += a[i] < 0 ? -a[i] : a[i];
@@ -46,10 +47,13 @@ struct NegativePart {
         low = part.c[k] < low ? part.c[k] : low;
         high = part.c[k] > high ? part.c[k] : high;
       }
-      if (low >= 0) continue;
+      if (low >= -round_off) {
+        if (a && low < 0) bounds.moment += moment(part, density, a);
+        continue;
+      }
       double square = gradient_square(products, K, n, part.c);
       if (part.cuts == cuts) negligible = 1e-4 * square;
-      if (high > 0) {
+      if (high > round_off) {
         const double some = steepest(K, part) * share_below(part);
         square = some < square ? some : square;
         const bool for_moment = part.cuts > cuts - 2 && -low * largest_density * 0.5 * part.scale * part.scale > small.moment;
