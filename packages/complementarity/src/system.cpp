@@ -62,14 +62,17 @@ double System::linear_tolerance(double rhs, double residual) const {
 }
 
 /// An estimate costs as much as some iterations: after one that exceeds what is allowed by a factor e, the next one waits until the
-/// residual has fallen by e/impatience.
+/// residual has fallen by e/impatience, but for no more than so many looks: what is allowed changes, too.
 constexpr double impatience = 3;
+constexpr int most_waiting = 3;
 
 bool System::look(const algebra::Vector& X, const algebra::Vector& dX, int iteration, double residual, double rhs) {
   LinearRecord record{step_, iteration, residual, std::nullopt};
   bool enough = false;
   forget_estimate();
-  if (iteration > 0 && asks_criterion() && residual <= worth_looking_) {
+  const bool waits = residual > worth_looking_ && waiting_++ < most_waiting;
+  if (iteration > 0 && asks_criterion() && !waits) {
+    waiting_ = 0;
     algebra::Vector Xi(X, Teuchos::Copy);
     Xi.update(1, dX, 1);
     record.estimate = estimate(Xi);
@@ -117,6 +120,7 @@ void System::solve(const algebra::Vector& X, const algebra::Vector& R, algebra::
   forget_estimate();
   looked_at_ = 0;
   worth_looking_ = std::numeric_limits<double>::infinity();
+  waiting_ = 0;
   if (check_every_ > 0 && (asks_criterion() || observer_.linear)) {
     stop.check_every = check_every_;
     stop.criterion = [&](const algebra::Vector& dXi, int iteration, double left) { return look(X, dXi, iteration, left, rhs); };

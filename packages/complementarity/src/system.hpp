@@ -78,6 +78,7 @@ class System {
   bool solved_ = false;
   double left_ = 0;
   double worth_looking_ = 0;          ///< residual of the linear system below which the next estimate is asked for
+  int waiting_ = 0;                   ///< looks without an estimate since the last one
   int looked_at_ = 0;                 ///< last iteration of the linear solver that `look` has seen
   std::optional<Estimate> estimate_;  ///< at the present iterate
   Strictness strictness_;             ///< of the rule `adaptive`
