@@ -10,6 +10,7 @@
 #include "thixis/mesh/geometry.hpp"
 #include "thixis/method/gradient_form.hpp"
 #include "thixis/reference/quadrature.hpp"
+#include "to_view.hpp"
 
 namespace thixis::equilibration {
 namespace {
@@ -19,14 +20,6 @@ constexpr int rows = 3;  ///< of cells; each step inwards costs and gains less
 /// Any v will do, and 1e-6 is near enough to the best one; but the bound is to be the same on any number of ranks.
 constexpr double tolerance = 1e-10;
 constexpr int order = 2 * LiftInCell::resolution + 4;  ///< exact for |grad l|²
-
-View<const LocalIndex*> to_view(const char* label, const std::vector<LocalIndex>& values) {
-  const View<LocalIndex*> view(std::string(label), values.size());
-  const auto host = Kokkos::create_mirror_view(view);
-  std::copy(values.begin(), values.end(), host.data());
-  Kokkos::deep_copy(view, host);
-  return view;
-}
 
 /// Rules for the layer, with what is known at their points.
 struct Rule {

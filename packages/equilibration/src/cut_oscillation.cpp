@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "cut.hpp"
+#include "sources.hpp"
 #include "thixis/mesh/host.hpp"
 
 namespace thixis::equilibration {
@@ -92,15 +93,6 @@ class Flux {
   std::vector<double> density_[levels + 1], sigma_[levels + 1], minus_, rest_;
 };
 
-double longest_side(const mesh::HostMesh& host, LocalIndex K) {
-  double h = 0;
-  for (int i = 0; i < 3; ++i) {
-    const LocalIndex a = host.cell_vertices(K, i), b = host.cell_vertices(K, (i + 1) % 3);
-    h = std::max(h, std::hypot(host.coordinates(a, 0) - host.coordinates(b, 0), host.coordinates(a, 1) - host.coordinates(b, 1)));
-  }
-  return h;
-}
-
 }  // namespace
 
 CutOscillation::CutOscillation(const method::PolynomialSpace& space, int q, const scene::FieldPtr& interface)
@@ -153,7 +145,7 @@ void CutOscillation::sharpen(const scene::Field& force, std::vector<double>& bou
     double square = 0, rest = 0;
     for (int c = 0; c < children; ++c) {
       square += metric(first + c).square(&sigma[c * flux], &sigma[c * flux + flux / 2], flux / 2);
-      rest += std::pow(poincare * longest_side(host, first + c), 2) * remainder[first + c];
+      rest += std::pow(poincare * diameter(host, first + c), 2) * remainder[first + c];
     }
     bound[cells_[k]] = std::min(bound[cells_[k]], std::sqrt(std::max(square, 0.0)) + std::sqrt(rest));
   }

@@ -6,25 +6,13 @@
 
 #include "averages.hpp"
 #include "deviation.hpp"
+#include "sources.hpp"
 #include "thixis/core/assert.hpp"
 #include "thixis/method/gradient_form.hpp"
+#include "to_view.hpp"
 
 namespace thixis::equilibration {
 namespace {
-
-View<const double*> to_view(const char* label, const std::vector<double>& values) {
-  const View<double*> view(std::string(label), values.size());
-  const auto host = Kokkos::create_mirror_view(view);
-  std::copy(values.begin(), values.end(), host.data());
-  Kokkos::deep_copy(view, host);
-  return view;
-}
-
-std::vector<bool> held_tags(const method::BoundaryValues& boundary) {
-  std::vector<bool> held;
-  for (const auto& value : boundary.dirichlet) held.push_back(value != nullptr);
-  return held;
-}
 
 /// Those of the space itself where it has continuous functions.
 ContinuousNodes nodes_of(const method::PolynomialSpace& space, const std::vector<bool>& dirichlet) {

@@ -59,12 +59,6 @@ struct GuaranteedBound::Impl {
   FeasiblePair::Parts parts;
   CellParts cells;
 
-  static std::vector<bool> held_tags(const ContactProblem& problem) {
-    std::vector<bool> held;
-    for (const auto& value : problem.boundary[0].dirichlet) held.push_back(value != nullptr);
-    return held;
-  }
-
   Impl(const method::PolynomialSpace& of, const ContactProblem& contact, const mesh::Hierarchy& hierarchy, int level)
       : space(of),
         problem(contact),
@@ -75,7 +69,7 @@ struct GuaranteedBound::Impl {
         flux(2 * reference::dimension(q + 1)),
         owned(mesh.owned_cells),
         patch_cells(of.cells().extent_int(0)),
-        held(held_tags(contact)),
+        held(held_tags(contact.boundary[0])),
         lift(mesh::ancestry(hierarchy, level), comm, held, q),
         feasible(of, {contact.count, contact.tension, contact.boundary, contact.obstacle}),
         metric(metrics(mesh, of.cells())) {

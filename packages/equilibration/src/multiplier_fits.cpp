@@ -5,6 +5,7 @@
 
 #include "tables.hpp"
 #include "thixis/mesh/host.hpp"
+#include "to_view.hpp"
 
 namespace thixis::equilibration {
 namespace {
@@ -13,15 +14,6 @@ namespace {
 bool inside_patch(const reference::NodeEntity& entity, int i) {
   return entity.kind == reference::Entity::interior || (entity.kind == reference::Entity::vertex && entity.index == i) ||
          (entity.kind == reference::Entity::face && entity.index != i);
-}
-
-template <class T>
-View<T*> to_view(const std::string& label, const std::vector<T>& values) {
-  const View<T*> view(label, values.size());
-  const auto host = Kokkos::create_mirror_view(view);
-  std::copy(values.begin(), values.end(), host.data());
-  Kokkos::deep_copy(view, host);
-  return view;
 }
 
 /// Appends (A^T A)^{-1} A^T; nothing if the moments do not determine the polynomial.

@@ -5,18 +5,10 @@
 
 #include "thixis/mesh/geometry.hpp"
 #include "thixis/mesh/host.hpp"
+#include "to_view.hpp"
 
 namespace thixis::equilibration {
 namespace {
-
-template <class T>
-View<T*> to_view(const std::string& label, const std::vector<T>& values) {
-  const View<T*> view(Kokkos::view_alloc(Kokkos::WithoutInitializing, label), values.size());
-  const auto host = Kokkos::create_mirror_view(view);
-  std::copy(values.begin(), values.end(), host.data());
-  Kokkos::deep_copy(view, host);
-  return view;
-}
 
 /// Vertex i of a mesh cell.
 struct Corner {

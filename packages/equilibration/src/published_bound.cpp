@@ -175,8 +175,7 @@ class Evaluation {
     const mesh::Mesh& mesh = space_.mesh();
     const LocalIndex cells = space_.cells().extent_int(0), owned = mesh.owned_cells;
     const int n = reference::dimension(q_), flux = 2 * reference::dimension(q_ + 1), functions = space_.basis().size();
-    std::vector<bool> held;
-    for (const auto& value : problem_.boundary[0].dirichlet) held.push_back(value != nullptr);
+    const std::vector<bool> held = held_tags(problem_.boundary[0]);
     const MultilevelFlux lift(mesh::ancestry(hierarchy, level), mesh.comm, held, q_);
     const PatchFlux patches(mesh, space_.cells(), held, q_);
     const reference::Modal modal(space_.basis().degree());

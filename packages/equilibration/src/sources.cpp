@@ -106,13 +106,26 @@ void project_traction(const method::PolynomialSpace& space, int q, const scene::
 
 }  // namespace
 
+double diameter(const mesh::HostMesh& mesh, LocalIndex K) {
+  double h = 0;
+  for (int i = 0; i < 3; ++i) {
+    const LocalIndex a = mesh.cell_vertices(K, i), b = mesh.cell_vertices(K, (i + 1) % 3);
+    h = std::max(h, std::hypot(mesh.coordinates(a, 0) - mesh.coordinates(b, 0), mesh.coordinates(a, 1) - mesh.coordinates(b, 1)));
+  }
+  return h;
+}
+
 std::vector<double> diameters(const mesh::Mesh& mesh) {
   const auto host = mesh::on_host(mesh);
-  std::vector<double> h(mesh.owned_cells, 0.0);
-  for (LocalIndex K = 0; K < mesh.owned_cells; ++K)
-    for (int f = 0; f < 3; ++f)
-      h[K] = std::max(h[K], mesh::face_geometry(host.coordinates, host.face_vertices, host.cell_faces(K, f)).length);
+  std::vector<double> h(mesh.owned_cells);
+  for (LocalIndex K = 0; K < mesh.owned_cells; ++K) h[K] = diameter(host, K);
   return h;
+}
+
+std::vector<bool> held_tags(const method::BoundaryValues& boundary) {
+  std::vector<bool> held;
+  for (const auto& value : boundary.dirichlet) held.push_back(value != nullptr);
+  return held;
 }
 
 std::vector<double> least_tension(const method::PolynomialSpace& space, const scene::Field& tension) {

@@ -27,7 +27,11 @@ Sources sources(const method::PolynomialSpace& space, int q, const scene::Field&
 /// The least value of the tension at the quadrature points of each owned cell. Collective; throws InputError where it is not positive.
 std::vector<double> least_tension(const method::PolynomialSpace& space, const scene::Field& tension);
 
-/// Longest side of each owned cell.
+/// Longest side of a cell, and of each owned cell.
+double diameter(const mesh::HostMesh& mesh, LocalIndex K);
 std::vector<double> diameters(const mesh::Mesh& mesh);
+
+/// The tags with Dirichlet data.
+std::vector<bool> held_tags(const method::BoundaryValues& boundary);
 
 }  // namespace thixis::equilibration

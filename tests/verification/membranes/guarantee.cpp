@@ -74,6 +74,18 @@ std::string underscored(const ::testing::TestParamInfo<std::string>& info) {
 }
 INSTANTIATE_TEST_SUITE_P(Cases, Guarantee, ::testing::ValuesIn(known_cases()), underscored);
 
+/// Boundary data with more on a face than the lift resolves: waves of half a cell, and a peak.
+TEST(BoundaryData, that_no_face_resolves_are_counted_in_the_bound) {
+  for (const char* u1 : {"sin(64*pi*x)*exp(64*pi*(y-1))", "sin(40*pi*x)*exp(40*pi*(y-1))", "0.003*(y+0.003)/((x-0.47)^2+(y+0.003)^2)"})
+    for (const int degree : {1, 2, 4}) {
+      auto deck = data({{"f1", "0"}, {"u1", u1}, {"u2", "-10"}, {"lambda", "0"}}, 0);
+      deck.method = by(method::MethodName::fem, degree);
+      deck.method.quadrature_order = 30;
+      const Solved run = solve(deck);
+      EXPECT_GE(run.outcome.discretization->estimate(*run.outcome.X).total, *run.outcome.energy_error) << u1 << ", degree " << degree;
+    }
+}
+
 class FarGuarantee : public ::testing::TestWithParam<std::string> {};
 TEST_P(FarGuarantee, holds_at_the_iterates_with_every_rule_and_c_function_on_T_0) { expect_bounds(GetParam(), 0, 0, true); }
 TEST_P(FarGuarantee, holds_at_the_iterates_of_every_method_on_T_1) { expect_bounds(GetParam(), 1, 1, false); }
