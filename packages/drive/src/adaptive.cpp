@@ -28,8 +28,10 @@ void solve_adaptively(LevelSolver& solver, mesh::Hierarchy& hierarchy, const Run
     if (params.stopping.target && outcome.estimate->total <= *params.stopping.target) return;
     if (added >= adapt.max_levels) return end(fmt::format("adapt/max levels = {}", adapt.max_levels));
 
-    const auto marked = mark(*outcome.mesh, adapt, outcome.discretization->cell_estimates().discretization);
-    if (marked.empty()) return end("no cell with a discretization error");
+    const auto wanted = mark(*outcome.mesh, adapt, outcome.discretization->cell_estimates().discretization);
+    if (wanted.empty()) return end("no cell with a discretization error");
+    const auto marked = refinable(*outcome.mesh, wanted);
+    if (marked.empty()) return end("its smallest cells: no marked cell can be refined further");
     refine(hierarchy, marked);
 
     const int level = outcome.at.level + 1;

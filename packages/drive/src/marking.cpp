@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+
+#include "thixis/mesh/host.hpp"
 
 namespace thixis::drive {
 namespace {
@@ -40,7 +43,40 @@ std::vector<GlobalIndex> largest_share(std::vector<Candidate> all, double theta)
   return ids;
 }
 
+/// Cells (global ids, rising) that are too small to be refined: longest face below 1e-8 of the mesh's width.
+std::vector<GlobalIndex> smallest(const mesh::Mesh& mesh) {
+  const auto host = mesh::on_host(mesh);
+  std::vector<double> corner(4, -std::numeric_limits<double>::infinity());
+  for (LocalIndex v = 0; v < mesh.vertices; ++v)
+    for (int i = 0; i < 2; ++i) {
+      corner[i] = std::max(corner[i], host.coordinates(v, i));
+      corner[2 + i] = std::max(corner[2 + i], -host.coordinates(v, i));
+    }
+  mesh.comm.max(corner);
+  const double least = 1e-8 * std::max(corner[0] + corner[2], corner[1] + corner[3]);
+  std::vector<GlobalIndex> found;
+  for (LocalIndex K = 0; K < mesh.owned_cells; ++K) {
+    double longest = 0;
+    for (int i = 0; i < 3; ++i) {
+      const LocalIndex a = host.cell_vertices(K, i), b = host.cell_vertices(K, (i + 1) % 3);
+      longest =
+          std::max(longest, std::hypot(host.coordinates(b, 0) - host.coordinates(a, 0), host.coordinates(b, 1) - host.coordinates(a, 1)));
+    }
+    if (longest < least) found.push_back(mesh.cell_id[K]);
+  }
+  found = mesh.comm.gather(found);
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
 }  // namespace
+
+std::vector<GlobalIndex> refinable(const mesh::Mesh& mesh, const std::vector<GlobalIndex>& ids) {
+  const auto small = smallest(mesh);
+  std::vector<GlobalIndex> left;
+  std::set_difference(ids.begin(), ids.end(), small.begin(), small.end(), std::back_inserter(left));
+  return left;
+}
 
 std::vector<GlobalIndex> mark(const mesh::Mesh& mesh, const AdaptParams& params, const std::vector<double>& eta) {
   const auto all = mesh.comm.gather(candidates(mesh, eta));

@@ -14,6 +14,10 @@ namespace thixis::drive {
 /// number.
 std::vector<GlobalIndex> mark(const mesh::Mesh& mesh, const AdaptParams& params, const std::vector<double>& eta);
 
+/// Those of the cells `ids` (rising, the same on all ranks) whose longest face is at least 1e-8 of the mesh's width, the largest extent of
+/// its bounding box: the children of smaller ones degenerate. The same on all ranks. Collective.
+std::vector<GlobalIndex> refinable(const mesh::Mesh& mesh, const std::vector<GlobalIndex>& ids);
+
 /// The owned cells (local numbers) of this rank with these ids, which are rising.
 std::vector<LocalIndex> owned(const mesh::Mesh& mesh, const std::vector<GlobalIndex>& ids);
 

@@ -76,6 +76,54 @@ void check_boundary(const scene::MembraneScene& scene, const Boundary& boundary,
   });
 }
 
+/// Throws where the values of two held parts of the boundary differ at a vertex where they meet: no function of finite energy has such
+/// boundary values. Every owned vertex has all its faces on this rank. Collective.
+void check_jumps(const scene::MembraneScene& scene, const Boundary& boundary, const mesh::Mesh& mesh) {
+  const std::size_t tags = boundary.dirichlet.size();
+  const auto host = mesh::on_host(mesh);
+  std::vector<std::vector<double>> values(tags * scene.count);
+  std::vector<PointList> ends(tags);
+  double largest = 0;
+  mesh.comm.together([&] {
+    for (std::size_t tag = 0; tag < tags; ++tag) {
+      if (!boundary.dirichlet[tag]) continue;
+      ends[tag] = points_on(mesh, host, tag, {0, 1});
+      for (int alpha = 0; alpha < scene.count; ++alpha) {
+        auto& found = values[tag * scene.count + alpha] = ends[tag].evaluate(*boundary.values[alpha].dirichlet[tag]);
+        for (const double value : found) largest = std::max(largest, std::abs(value));
+      }
+    }
+  });
+  const double allowed = 1e-8 * mesh.comm.max(largest) + 1e-12;
+  struct First {
+    std::size_t tag, end;  ///< tag = tags: none yet
+  };
+  mesh.comm.together([&] {
+    std::vector<First> first(mesh.vertices, First{tags, 0});
+    std::vector<std::size_t> count(tags, 0);
+    for (LocalIndex F = 0; F < mesh.faces; ++F) {
+      if (host.face_tag(F) < 0) continue;
+      const auto tag = static_cast<std::size_t>(host.face_tag(F));
+      if (!boundary.dirichlet[tag]) continue;
+      for (int side = 0; side < 2; ++side) {
+        const std::size_t end = count[tag]++;
+        First& other = first[host.face_vertices(F, side)];
+        if (other.tag == tags) other = {tag, end};
+        for (int alpha = 0; alpha < scene.count && other.tag != tag; ++alpha) {
+          const auto [low, high] = std::minmax(other.tag, tag);
+          const double here = values[tag * scene.count + alpha][end], there = values[other.tag * scene.count + alpha][other.end];
+          if (std::abs(here - there) > allowed)
+            throw core::InputError(fmt::format(
+                "scene/boundary: {} jumps where the parts '{}' and '{}' of the boundary meet, at ({:.6g}, {:.6g}): {:.6g} and {:.6g}; no "
+                "solution of finite energy exists then. Give data that agree there, such as a steep ramp.",
+                named(scene, "g", alpha), mesh.tags[low], mesh.tags[high], ends[tag].x[end], ends[tag].y[end], low == tag ? here : there,
+                low == tag ? there : here));
+        }
+      }
+    }
+  });
+}
+
 /// Throws where a tension is not positive or another function of the user is not finite: at the points where the run will ask for it, but
 /// before anything is written. Collective.
 void check_data(const scene::MembraneScene& scene, const method::MethodParams& method, const mesh::Mesh& mesh) {
@@ -149,7 +197,9 @@ Boundary boundary_of(const scene::MembraneScene& scene, const mesh::Mesh& mesh) 
 
 void check_functions(const scene::MembraneScene& scene, const std::array<scene::FieldPtr, 3>& initial, const method::MethodParams& method,
                      const mesh::Mesh& mesh) {
-  check_boundary(scene, boundary_of(scene, mesh), method, mesh);
+  const Boundary boundary = boundary_of(scene, mesh);
+  check_boundary(scene, boundary, method, mesh);
+  check_jumps(scene, boundary, mesh);
   check_initial(initial, mesh);
   if (scene.name == "data") check_data(scene, method, mesh);
 }

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "thixis/mesh/build.hpp"
+#include "thixis/mesh/host.hpp"
 
 namespace thixis::drive::test {
 namespace {
@@ -105,6 +106,29 @@ TEST(Marking, an_estimate_that_is_not_a_number_ends_the_run_on_all_ranks) {
     if (mesh.comm.root()) eta[0] = wrong;
     EXPECT_THROW(mark(mesh, {}, eta), core::Error);
   }
+}
+
+TEST(Marking, cells_at_round_off_are_not_refined) {
+  mesh::Hierarchy levels = hierarchy();
+  mesh::Mesh& mesh = levels.levels.back();
+  EXPECT_EQ(refinable(mesh, all()), all());
+  EXPECT_TRUE(refinable(mesh, {}).empty());
+  // all vertices but those of the side x = 1 drawn together
+  const auto host = mesh::on_host(mesh);
+  for (LocalIndex v = 0; v < mesh.vertices; ++v)
+    if (host.coordinates(v, 0) < 1 - 1e-12)
+      for (int i = 0; i < 2; ++i) host.coordinates(v, i) *= 1e-8;
+  mesh::commit(host, mesh);
+  std::vector<GlobalIndex> touching;
+  for (LocalIndex K = 0; K < mesh.owned_cells; ++K)
+    for (int i = 0; i < 3; ++i)
+      if (host.coordinates(host.cell_vertices(K, i), 0) > 0.5) {
+        touching.push_back(mesh.cell_id[K]);
+        break;
+      }
+  touching = mesh.comm.gather(touching);
+  std::sort(touching.begin(), touching.end());
+  EXPECT_EQ(refinable(mesh, all()), touching);
 }
 
 TEST(Marking, owned_cells_are_found_by_their_ids) {
