@@ -36,19 +36,25 @@ void solve_adaptively(LevelSolver& solver, mesh::Hierarchy& hierarchy, const Run
 
     const int level = outcome.at.level + 1;
     auto finer = solver.discretize(level);
-    if (finer->sizes().unknowns_all > adapt.max_unknowns) return end(fmt::format("adapt/max unknowns = {}", adapt.max_unknowns));
+    if (!allowed(*finer, params)) return end(too_many_unknowns(params));
     if (observer.refined) observer.refined(level, marked);
     solver.solve(level, std::move(finer));
   }
 }
 
+bool allowed(const models::Discretization& discretization, const RunParams& params) {
+  return !params.adaptive() || discretization.sizes().unknowns_all <= params.adapt.value_or(AdaptParams()).max_unknowns;
+}
+
+std::string too_many_unknowns(const RunParams& params) {
+  return fmt::format("adapt/max unknowns = {}", params.adapt.value_or(AdaptParams()).max_unknowns);
+}
+
 void require_allowed(const models::Discretization& discretization, const RunParams& params) {
-  const long long most = params.adapt.value_or(AdaptParams()).max_unknowns;
-  const GlobalIndex unknowns = discretization.sizes().unknowns_all;
-  if (params.adaptive() && unknowns > most)
-    throw core::InputError(fmt::format(
-        "adapt/max unknowns: the run begins on a mesh with {} unknowns, more than {}; write at least as many, or fewer mesh/refinements.",
-        unknowns, most));
+  if (allowed(discretization, params)) return;
+  throw core::InputError(fmt::format(
+      "adapt/max unknowns: the run begins on a mesh with {} unknowns, more than {}; write at least as many, or fewer mesh/refinements.",
+      discretization.sizes().unknowns_all, params.adapt.value_or(AdaptParams()).max_unknowns));
 }
 
 }  // namespace thixis::drive

@@ -7,7 +7,11 @@ namespace thixis::drive {
 /// `adapt` is reached. The last solution stays in the outcome of the solver; where the target was missed, the one with the smallest bound.
 void solve_adaptively(LevelSolver& solver, mesh::Hierarchy& hierarchy, const RunParams& params, const Observer& observer);
 
-/// Throws InputError if a mesh that the run must begin with has more unknowns than it may have.
+/// Whether an adaptive run may solve on this mesh (adapt/max unknowns), and what ends it otherwise.
+bool allowed(const models::Discretization& discretization, const RunParams& params);
+std::string too_many_unknowns(const RunParams& params);
+
+/// Throws InputError if the mesh that the run begins with has more unknowns than it may have.
 void require_allowed(const models::Discretization& discretization, const RunParams& params);
 
 }  // namespace thixis::drive

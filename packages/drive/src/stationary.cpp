@@ -40,10 +40,15 @@ Outcome solve_stationary(const models::Model& model, mesh::Hierarchy& hierarchy,
   const int finest = static_cast<int>(hierarchy.levels.size()) - 1;
   for (int level = solver.first(); level <= finest && solver.goes_on(); ++level) {
     auto discretization = solver.discretize(level);
+    if (level > solver.first() && !allowed(*discretization, params)) {
+      solver.outcome().refinement_ended = too_many_unknowns(params);
+      solver.return_to_best();
+      break;
+    }
     require_allowed(*discretization, params);
     solver.solve(level, std::move(discretization));
   }
-  if (params.adaptive()) solve_adaptively(solver, hierarchy, params, observer);
+  if (params.adaptive() && solver.outcome().refinement_ended.empty()) solve_adaptively(solver, hierarchy, params, observer);
 
   Outcome outcome = std::move(solver.outcome());
   if (!outcome.not_wanted) verify(outcome, params);

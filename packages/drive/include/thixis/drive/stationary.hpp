@@ -66,7 +66,7 @@ struct Outcome {
 ///
 /// Adaptive runs (RunParams::adaptive) go on from there: they mark cells by their discretization error, append a level to the hierarchy and
 /// solve on it, from the solution before, until the bound meets stopping/target or a limit of `adapt` comes first. No mesh with more than
-/// adapt/max unknowns is solved; InputError if one of those to begin with has more.
+/// adapt/max unknowns is solved: the run ends before it; InputError if it would begin with one.
 ///
 /// With a checkpoint (`stored`, not null) it goes on from the level and the iterate of that one, and on finer levels as `nested` does.
 /// Newton itself begins anew there: `newton/max iterations` limits the steps since the restart, and what its safeguards had seen (cycles,
