@@ -21,7 +21,7 @@ namespace {
 using algebra::Vector;
 constexpr int restart = 50;
 
-std::unique_ptr<models::Model> model(const drive::RunParams& params, const algebra::LinearParams& linear) {
+std::unique_ptr<models::StationaryModel> model(const drive::RunParams& params, const algebra::LinearParams& linear) {
   return models::membranes(scene::membrane_scene(params.scene), factory(params.method.name), params.method, linear, {});
 }
 

@@ -8,8 +8,8 @@
 
 namespace thixis::drive {
 
-LevelSolver::LevelSolver(const models::Model& model, const mesh::Hierarchy& hierarchy, const RunParams& params, const Observer& observer,
-                         const output::StoredCheckpoint* stored)
+LevelSolver::LevelSolver(const models::StationaryModel& model, const mesh::Hierarchy& hierarchy, const RunParams& params,
+                         const Observer& observer, const output::StoredCheckpoint* stored)
     : model_(model), hierarchy_(hierarchy), params_(params), observer_(observer), stored_(stored) {
   if (stored) outcome_.at = position_of(*stored);
   outcome_.not_wanted = params.newton.max_iterations == 0;

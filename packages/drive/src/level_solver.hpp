@@ -6,7 +6,7 @@ namespace thixis::drive {
 /// Solves one level after the other, each from the solution on the one before, and keeps the last one.
 class LevelSolver {
  public:
-  LevelSolver(const models::Model& model, const mesh::Hierarchy& hierarchy, const RunParams& params, const Observer& observer,
+  LevelSolver(const models::StationaryModel& model, const mesh::Hierarchy& hierarchy, const RunParams& params, const Observer& observer,
               const output::StoredCheckpoint* stored);
 
   /// The level to begin with: that of the checkpoint, the coarsest one of nested starts, else the finest one.
@@ -30,7 +30,7 @@ class LevelSolver {
   void estimate();
   complementarity::NewtonObserver on_level();
 
-  const models::Model& model_;
+  const models::StationaryModel& model_;
   const mesh::Hierarchy& hierarchy_;
   const RunParams& params_;
   const Observer& observer_;

@@ -62,8 +62,36 @@ const core::Schema<OutputParams>& OutputParams::schema() {
           .parameter("fields", &OutputParams::fields, "Fields for fields.h5: all, none, or names separated by commas.")
           .parameter("history", &OutputParams::history, "Whether history.csv is written.")
           .parameter("checkpoint every", &OutputParams::checkpoint_every, core::at_least(0),
-                     "checkpoint.h5 is written after so many Newton steps, again and again, and at the end; 0: only where a run ends "
-                     "without convergence.");
+                     "checkpoint.h5 is written after so many Newton steps (scenes in time: time steps), again and again, and at the end; "
+                     "0: only where a run ends without convergence or is told to end.")
+          .parameter("fields every", &OutputParams::fields_every, core::at_least(1),
+                     "Scenes in time: fields are written after so many steps, and at the beginning and the end.")
+          .parameter("probes", &OutputParams::probes,
+                     "Scenes in time: the points of series.csv, x and y of each one (intervals: x alone); not given: chosen by the scene.");
+  return schema;
+}
+
+double seconds_in(TimeUnit unit) { return unit == TimeUnit::year ? 365.25 * 86400 : 1; }
+
+const core::Schema<TimeParams>& TimeParams::schema() {
+  static const auto schema =
+      core::Schema<TimeParams>("time", "Scenes in time: backward Euler from 0 to the end.")
+          .choice("unit", &TimeParams::unit, {{"none", TimeUnit::none}, {"second", TimeUnit::second}, {"year", TimeUnit::year}},
+                  "Unit of all times of the deck, of t in expressions, and of rates; a year has 365.25 days.")
+          .parameter("step", &TimeParams::step, core::above(0), "Length of the steps; with adaptive = true that of the first one.")
+          .required()
+          .parameter("end", &TimeParams::end, core::above(0), "Where the run ends.")
+          .required()
+          .parameter("adaptive", &TimeParams::adaptive, "Whether the time part of the error estimate controls the length of the steps.")
+          .parameter("also", &TimeParams::also, "Further times at which a step ends, e.g. where data jump.")
+          .parameter("smallest", &TimeParams::smallest, core::above(0),
+                     "A step that fails is cut; one below this length ends the run. Not given: 'step' / 2^20.")
+          .parameter("largest", &TimeParams::largest, core::above(0), "Longest step of adaptive = true; not given: the whole time.")
+          .parameter("growth", &TimeParams::growth, core::above(1), "The next step is at most so many times longer.")
+          .check([](const TimeParams& params, core::Problems& problems) {
+            for (const double t : params.also)
+              if (!(t > 0 && t < params.end)) problems.add("also", "must hold times between 0 and the end.");
+          });
   return schema;
 }
 
@@ -113,6 +141,7 @@ const core::Schema<RunParams>& RunParams::schema() {
                                  .block("linear", &RunParams::linear, algebra::LinearParams::schema())
                                  .block("stopping", &RunParams::stopping, complementarity::StoppingParams::schema())
                                  .block("adapt", &RunParams::adapt, AdaptParams::schema())
+                                 .block("time", &RunParams::time, TimeParams::schema())
                                  .block("output", &RunParams::output, OutputParams::schema())
                                  .block("expect", &RunParams::expect, ExpectParams::schema());
   return schema;

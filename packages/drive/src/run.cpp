@@ -124,10 +124,11 @@ void write_fields(const output::RunDirectory& directory, const OutputParams& par
 
 }  // namespace
 
-ExitCode run(const RunParams& params, const models::Model& model, const core::Deck& deck, const core::Comm& comm,
+ExitCode run(const RunParams& params, const models::Model& any_model, const core::Deck& deck, const core::Comm& comm,
              const std::vector<std::pair<std::string, std::string>>& versions, const output::StoredCheckpoint* stored) {
   const core::Stopwatch clock;
   core::reset_regions();
+  const auto& model = dynamic_cast<const models::StationaryModel&>(any_model);
   mesh::Hierarchy hierarchy;
   {
     const core::Region region("mesh");

@@ -34,8 +34,8 @@ std::optional<double> Outcome::effectivity() const {
   return estimate->total / *energy_error;
 }
 
-Outcome solve_stationary(const models::Model& model, mesh::Hierarchy& hierarchy, const RunParams& params, const Observer& observer,
-                         const output::StoredCheckpoint* stored) {
+Outcome solve_stationary(const models::StationaryModel& model, mesh::Hierarchy& hierarchy, const RunParams& params,
+                         const Observer& observer, const output::StoredCheckpoint* stored) {
   LevelSolver solver(model, hierarchy, params, observer, stored);
   const int finest = static_cast<int>(hierarchy.levels.size()) - 1;
   for (int level = solver.first(); level <= finest && solver.goes_on(); ++level) {

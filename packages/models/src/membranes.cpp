@@ -306,7 +306,7 @@ class MembraneDiscretization final : public Discretization {
   std::unique_ptr<equilibration::GuaranteedBound> bound_;  ///< made when an estimate is first asked for
 };
 
-class Membranes final : public Model {
+class Membranes final : public StationaryModel {
  public:
   Membranes(scene::MembraneScene scene, method::SpaceFactory make_space, method::MethodParams method, algebra::LinearParams linear,
             std::array<scene::FieldPtr, 3> initial, method::MeshCheck check_mesh)
@@ -341,7 +341,7 @@ class Membranes final : public Model {
 
 }  // namespace
 
-std::unique_ptr<Model> membranes(scene::MembraneScene scene, method::SpaceFactory make_space, method::MethodParams method,
+std::unique_ptr<StationaryModel> membranes(scene::MembraneScene scene, method::SpaceFactory make_space, method::MethodParams method,
                                  algebra::LinearParams linear, std::array<scene::FieldPtr, 3> initial, method::MeshCheck check_mesh) {
   return std::make_unique<Membranes>(std::move(scene), std::move(make_space), method, linear, std::move(initial), std::move(check_mesh));
 }

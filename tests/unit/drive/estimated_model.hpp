@@ -10,7 +10,7 @@ namespace thixis::drive::test {
 
 /// The bound is `effectivity` times the true error at discretization; what is out of balance and below zero comes on top. Cells near the
 /// circle r = 1/3 have the larger part of it.
-class EstimatedModel final : public models::Model {
+class EstimatedModel final : public models::StationaryModel {
  public:
   explicit EstimatedModel(const RunParams& params);
 
@@ -26,7 +26,7 @@ class EstimatedModel final : public models::Model {
   std::unique_ptr<models::Discretization> discretize(const mesh::Hierarchy& hierarchy, int level) const override;
 
  private:
-  std::unique_ptr<models::Model> inner_;
+  std::unique_ptr<models::StationaryModel> inner_;
 };
 
 /// The smooth contact on 4 x 4 squares, refined once; direct solver.

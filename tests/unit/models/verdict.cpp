@@ -84,7 +84,7 @@ class Verdict : public ::testing::TestWithParam<Kind> {
 
   int membranes_ = 2;
   mesh::Hierarchy levels_;
-  std::unique_ptr<Model> model_;
+  std::unique_ptr<StationaryModel> model_;
   std::unique_ptr<Discretization> discretization_;
   Teuchos::RCP<Vector> X_;
   complementarity::NewtonReport report_;

@@ -18,7 +18,7 @@ struct Seen {
 struct Laid {
   drive::RunParams params;
   mesh::Hierarchy hierarchy;
-  std::unique_ptr<models::Model> model;
+  std::unique_ptr<models::StationaryModel> model;
   std::unique_ptr<models::Discretization> discretization;  ///< on the finest mesh
 
   models::Discretization& operator*() const { return *discretization; }

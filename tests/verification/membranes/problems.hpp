@@ -12,7 +12,7 @@ namespace thixis::verification {
 /// A run with its mesh, which its results refer to.
 struct Solved {
   mesh::Hierarchy hierarchy;
-  std::unique_ptr<models::Model> model;
+  std::unique_ptr<models::StationaryModel> model;
   drive::Outcome outcome;
 };
 

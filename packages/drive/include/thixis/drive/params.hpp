@@ -20,13 +20,32 @@ struct OutputParams {
   std::string directory;       ///< empty: results/<name of the deck>
   std::string fields = "all";  ///< all, none, or names separated by commas
   bool history = true;
-  int checkpoint_every = 0;  ///< Newton steps (stationary scenes); 0: only where a run does not converge
+  int checkpoint_every = 0;    ///< Newton steps, or time steps of scenes in time; 0: only where a run does not converge or is ended
+  int fields_every = 10;       ///< time steps
+  std::vector<double> probes;  ///< x, y of the first one, of the second one, ... (intervals: x only)
   static const core::Schema<OutputParams>& schema();
   /// The names in `fields`; nothing for `all`. `none` is asked for by `no_fields`.
   std::vector<std::string> field_names() const;
   /// Those that the driver itself can show, of the estimate (`names_of_estimate`), and those that are left to the model.
   std::vector<std::string> estimate_names() const, model_names() const;
   bool no_fields() const { return fields == "none"; }
+};
+
+enum class TimeUnit { none, second, year };
+/// Seconds in a unit; a year has 365.25 days. 1 where time has no unit.
+double seconds_in(TimeUnit unit);
+
+/// Block `time` of the deck: backward Euler from 0 to the end. All times are in its unit, also t in expressions and rates of data.
+struct TimeParams {
+  TimeUnit unit = TimeUnit::none;
+  double step = 0;  ///< length of the steps; of the first one where they are controlled
+  double end = 0;
+  bool adaptive = false;           ///< the time part of the estimate controls the steps
+  std::vector<double> also;        ///< further times at which a step ends
+  std::optional<double> smallest;  ///< a step that has been cut below it ends the run; not given: step / 2^20
+  std::optional<double> largest;   ///< adaptive: no longer step; not given: the end
+  double growth = 2;               ///< the next step after a cut or of an adaptive run is at most so many times longer
+  static const core::Schema<TimeParams>& schema();
 };
 
 enum class Marking { dorfler, uniform };
@@ -62,6 +81,7 @@ struct RunParams {
   algebra::LinearParams linear;
   complementarity::StoppingParams stopping;
   std::optional<AdaptParams> adapt;
+  std::optional<TimeParams> time;
   OutputParams output;
   ExpectParams expect;
   static const core::Schema<RunParams>& schema();

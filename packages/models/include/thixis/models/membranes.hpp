@@ -16,7 +16,8 @@ namespace thixis::models {
 ///
 /// `make_space`, `check_mesh`: the method. `initial`: expressions of the deck for the cold start, u_1 (or u), u_2, lambda (null: those of
 /// the scene, else zero).
-std::unique_ptr<Model> membranes(scene::MembraneScene scene, method::SpaceFactory make_space, method::MethodParams method,
-                                 algebra::LinearParams linear, std::array<scene::FieldPtr, 3> initial, method::MeshCheck check_mesh = {});
+std::unique_ptr<StationaryModel> membranes(scene::MembraneScene scene, method::SpaceFactory make_space, method::MethodParams method,
+                                           algebra::LinearParams linear, std::array<scene::FieldPtr, 3> initial,
+                                           method::MeshCheck check_mesh = {});
 
 }  // namespace thixis::models

@@ -72,12 +72,16 @@ class Discretization {
                                                 const std::vector<std::string>& names) const = 0;
 };
 
-/// A scene before it meets a mesh.
+/// A scene before it meets a mesh: a StationaryModel or an UnsteadyModel (evolution.hpp).
 class Model {
  public:
   virtual ~Model() = default;
   virtual std::string name() const = 0;
   virtual std::string case_name() const = 0;  ///< empty for data of the user
+};
+
+class StationaryModel : public Model {
+ public:
   /// Throws InputError for what only a mesh shows: unknown boundary tags, boundary data that contradict each other, tensions that are not
   /// positive and data that are not finite somewhere, unknown field names.
   /// Collective; to be asked before anything is computed or written.

@@ -1,0 +1,110 @@
+#pragma once
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "thixis/complementarity/active_set.hpp"
+#include "thixis/complementarity/estimate.hpp"
+#include "thixis/complementarity/kkt.hpp"
+#include "thixis/complementarity/problem.hpp"
+#include "thixis/mesh/build.hpp"
+#include "thixis/models/model.hpp"
+#include "thixis/output/checkpoint.hpp"
+#include "thixis/output/fields.hpp"
+
+namespace thixis::models {
+
+/// A step ]begin, end] of backward Euler, in the unit of time of the deck.
+struct TimeStep {
+  double begin = 0, end = 0;
+  double length() const { return end - begin; }
+};
+
+/// What is conserved: by how much the steps so far have missed it, relative (docs/methods/two_phase.md).
+struct Balance {
+  std::string name;       ///< of the component: water, hydrogen
+  double of_step = 0;     ///< defect of the last step
+  double worst_step = 0;  ///< the largest of all steps
+  double total = 0;       ///< of the sum over all steps
+};
+
+/// The two parts of the discretization error of a step that step control compares.
+struct StepErrors {
+  double time = 0;   ///< from replacing the solution in ]t_{n-1}, t_n] by its value at t_n
+  double space = 0;  ///< the rest
+};
+
+/// What a scene must bring to the next step beside X.
+struct EvolutionState {
+  std::vector<output::CheckpointBlock> blocks;
+  std::map<std::string, double> attributes;  ///< sums over the steps so far
+};
+
+/// A scene in time on its mesh: X^0, and X^n from X^{n-1} step by step. All members are collective.
+///
+///     X = initial();
+///     for each step:  begin(step, X_before);  solve problem() with any number of looks at estimate(X);  accept(X)
+///
+/// A step that fails is begun again, shorter, from the same X_before: nothing of it is kept.
+class Evolution {
+ public:
+  virtual ~Evolution() = default;
+
+  virtual const core::Comm& comm() const = 0;
+  virtual GlobalIndex cells() const = 0;
+  virtual Sizes sizes() const = 0;  ///< of each step
+
+  /// X^0 at time 0; its multipliers may be 0.
+  virtual Teuchos::RCP<algebra::Vector> initial() = 0;
+  /// Sets up problem() for a step. What does not depend on the length of the step or on the data at its end is kept.
+  virtual void begin(const TimeStep& step, const algebra::Vector& before) = 0;
+  /// Of the step begun.
+  virtual complementarity::Problem& problem() = 0;
+
+  /// The share of the step begun in the bound on the error over all time, at any X of the step: sqrt of an integral over the step. What it
+  /// needs of the mesh is set up at the first call; a run that never asks pays nothing. Throws InputError where the scene has no bound.
+  virtual complementarity::Estimate estimate(const algebra::Vector& X) = 0;
+  virtual CellEstimates cell_estimates() const = 0;                     ///< of the last call of `estimate`
+  virtual std::optional<StepErrors> step_errors() const { return {}; }  ///< likewise; nothing where they are not known apart
+
+  /// The step ends with X. If `estimate` was called since begin(), its last call was at X, and the bound so far takes it in.
+  virtual void accept(const algebra::Vector& X) = 0;
+
+  // Over ]0, t_n], the steps accepted.
+  virtual std::optional<double> energy_error() const { return {}; }                        ///< if the exact solution is known
+  virtual std::optional<complementarity::Estimate> estimate_so_far() const { return {}; }  ///< where every step was estimated
+  virtual std::vector<Balance> balances() const { return {}; }
+
+  // Of X at the end of a step, or of X^0.
+  virtual complementarity::KktData kkt_data(const algebra::Vector& X) const = 0;
+  virtual std::optional<double> front(const algebra::Vector&) const { return {}; }
+  /// Columns of series.csv behind the time, and their values.
+  virtual std::vector<std::string> series_names() const { return {}; }
+  virtual std::vector<double> series(const algebra::Vector&) const { return {}; }
+  virtual output::Grid grid() const = 0;
+  /// The fields that the model can show, by name; `names` empty: all.
+  virtual std::vector<output::FieldData> fields(const algebra::Vector& X, const complementarity::ActiveSet& active,
+                                                const std::vector<std::string>& names) const = 0;
+
+  /// Everything that steps after X depend on, by ids that do not depend on the number of ranks.
+  virtual EvolutionState save(const algebra::Vector& X) const = 0;
+  /// The X that was saved, exactly, and the sums that go with it. Throws InputError if it belongs to another scene, mesh or method.
+  virtual Teuchos::RCP<algebra::Vector> restore(const output::StoredCheckpoint& stored) = 0;
+
+  /// Refines the cells with these ids; X is then what it was on the finer mesh. For scenes whose `hierarchy` is not null.
+  virtual const mesh::Hierarchy* hierarchy() const { return nullptr; }
+  virtual Teuchos::RCP<algebra::Vector> refine(const std::vector<GlobalIndex>&, const algebra::Vector&) { return Teuchos::null; }
+};
+
+/// A scene in time before it meets a mesh.
+class UnsteadyModel : public Model {
+ public:
+  /// On the mesh of the deck (`folder`: that of the deck). Throws InputError for what only a mesh shows, as StationaryModel::check does,
+  /// before anything is computed or written. Collective.
+  virtual std::unique_ptr<Evolution> evolve(const mesh::MeshParams& mesh, const core::Comm& comm, const std::string& folder,
+                                            const std::vector<std::string>& field_names) const = 0;
+};
+
+}  // namespace thixis::models
