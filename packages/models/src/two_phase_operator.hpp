@@ -35,9 +35,9 @@ class TwoPhaseOperator {
 
   /// Of all local cells, ghosts included. Collective.
   fv::View<PhaseState*> states(const algebra::Vector& X) const;
-  /// Of all local faces.
+  /// Of all local faces: what they leave out of balance in a cell [kg/s] is
+  /// R_c = |K| (l_c - before)/length + sum_F ± |F| Phi_c - |K| source, ± outward.
   fv::View<FaceFlux*> fluxes(const fv::View<PhaseState*>& states, const FlowStep& step) const;
-  /// |F| / distance and the like are not in the fluxes: R_c = |K| (l_c - before)/length + sum_F ± |F| Phi_c - |K| source, ± outward.
 
  private:
   void set_boundary(const scene::TwoPhaseScene& scene);
@@ -49,7 +49,6 @@ class TwoPhaseOperator {
   algebra::MapPtr cells_, map_, column_map_;
   Teuchos::RCP<const algebra::Import> import_;
   fv::View<scene::FlowBoundaryKind*> face_kind_;
-  std::vector<std::string> tag_of_kind_;
 };
 
 }  // namespace thixis::models
