@@ -175,10 +175,8 @@ struct FieldWriter::Impl {
   }
   void write_list() const {
     if (series) write_text(data_path, file_of_links(links()));
-    if (grids == 0)
-      discard(text_path);
-    else
-      write_text(text_path, grids == 1 && !series ? xdmf_single(single) : xdmf_series(collected));
+    if (grids == 0) discard(text_path);
+    else write_text(text_path, grids == 1 && !series ? xdmf_single(single) : xdmf_series(collected));
   }
   std::vector<Link> links() const {
     std::vector<Link> result;

@@ -56,7 +56,8 @@ struct Grid {
 /// byte, whether or not the run was interrupted between them. After an Error the frames are as they were before the call. A checkpoint that
 /// counts a frame is to be written behind it.
 ///
-/// (The lists of all grids so far, fields.xdmf and the links, are renewed, beyond 128 grids, once per 64th of their number, and by close().)
+/// (The lists of all grids so far, fields.xdmf and the links, are renewed, beyond 128 grids, once per 64th of their number, and by
+/// close().)
 class FieldWriter {
  public:
   /// Creates an empty fields.h5 in an existing folder; an old fields.xdmf and old frames are removed.
