@@ -59,7 +59,7 @@ void add_estimates(const OutputParams& params, const models::CellEstimates& cell
                               name == "eta_disc"  ? cells.discretization
                               : name == "eta_lin" ? cells.linearization
                                                   : cells.algebraic,
-                              grid.triangles.size()));
+                              grid.cells()));
 }
 
 output::SummaryEstimate parts(const complementarity::Estimate& eta) {

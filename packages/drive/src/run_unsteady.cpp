@@ -109,12 +109,12 @@ output::Summary summarize(const RunParams& params, const models::Model& model, c
     const auto& kkt = *outcome.kkt;
     summary.kkt = {kkt.infeasible, kkt.negative, kkt.complementary, kkt.between_nodes, kkt.equilibrium};
   }
-  summary.steps = outcome.at.step;
-  summary.retries = outcome.at.retries;
-  summary.time_end = outcome.at.time;
-  summary.front = evolution.front(*outcome.X);
-  for (const models::Balance& balance : evolution.balances())
-    summary.mass_balance.push_back({balance.name, balance.worst_step, balance.total});
+  summary.in_time = output::SummaryTime{outcome.at.step, outcome.at.retries, outcome.at.time};
+  if (const auto balances = evolution.balances(); !balances.empty()) {
+    summary.flow.emplace();
+    for (const models::Balance& balance : balances) summary.flow->mass_balance.push_back({balance.name, balance.worst_step, balance.total});
+    summary.flow->front = evolution.front(*outcome.X);
+  }
   return summary;
 }
 

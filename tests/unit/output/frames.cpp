@@ -182,8 +182,7 @@ TEST(frames, go_forward_in_time_behind_those_that_were_kept) {
   run(folder, 0, 3, comm);
   comm.barrier();
   FieldWriter writer = FieldWriter::series(folder, comm, 3);
-  EXPECT_EQ(sentence_of(internal, [&] { write_frame(writer, 2, comm); }).substr(0, 45),
-            "Fields must be written in the order of time; ");
+  EXPECT_EQ(sentence_of(internal, [&] { write_frame(writer, 2, comm); }).substr(0, 45), "Fields must be written in the order of time; ");
   writer.close();
   EXPECT_EQ(times(folder), (std::vector<double>{0, 1 / 3.0, 2 / 3.0}));
 }
