@@ -94,10 +94,10 @@ output::Summary summarize(const RunParams& params, const models::Model& model, c
   return summary;
 }
 
-/// A value for each owned cell of the mesh, on the triangles that show it: as many of them for each cell.
-output::FieldData on_cells(const std::string& name, const std::vector<double>& values, std::size_t triangles) {
+/// A value for each owned cell of the mesh, on the cells of the grid that show it: as many of them for each one.
+output::FieldData on_cells(const std::string& name, const std::vector<double>& values, std::size_t shown) {
   output::FieldData field{name, output::Centre::cell, {}};
-  const std::size_t pieces = values.empty() ? 0 : triangles / values.size();
+  const std::size_t pieces = values.empty() ? 0 : shown / values.size();
   for (const double value : values) field.values.insert(field.values.end(), pieces, value);
   return field;
 }
@@ -115,7 +115,7 @@ void write_fields(const output::RunDirectory& directory, const OutputParams& par
                                 name == "eta_disc"  ? cells.discretization
                                 : name == "eta_lin" ? cells.linearization
                                                     : cells.algebraic,
-                                grid.triangles.size()));
+                                grid.cells()));
   }
   output::FieldWriter writer(directory.path(), comm);
   writer.write(grid, fields, 0);

@@ -79,6 +79,8 @@ void judge_method(const RunParams& params, Mistakes& mistakes) {
 
 void check_served(const RunParams& params) {
   Mistakes mistakes;
+  if (const auto found = mesh::not_triangles(params.mesh); found && params.method.name != method::MethodName::fv)
+    mistakes.push_back(fmt::format("mesh/{}: {}", found->parameter, found->sentence));
   judge_estimate(params, mistakes);
   judge_method(params, mistakes);
   if (!mistakes.empty()) throw core::InputError(fmt::format("{}", fmt::join(mistakes, "\n")));

@@ -21,17 +21,16 @@ const std::string data_name = "fields.h5";
 /// Bytes that a grid needs in the file.
 long long room_of(const XdmfGrid& grid, bool new_mesh) {
   long long room = group_bytes;
-  if (new_mesh) room += group_bytes + 2 * array_bytes + 8 * (2 * grid.points + 3 * grid.triangles);
+  if (new_mesh) room += group_bytes + 2 * array_bytes + 8 * (2 * grid.points + grid.corners * grid.cells);
   for (const XdmfAttribute& field : grid.attributes)
-    room += array_bytes + 8 * field.columns * (field.centre == Centre::vertex ? grid.points : grid.triangles);
+    room += array_bytes + 8 * field.columns * (field.centre == Centre::vertex ? grid.points : grid.cells);
   return room;
 }
 
-std::vector<GlobalIndex> global_triangles(const Grid& grid) {
-  std::vector<GlobalIndex> result;
-  result.reserve(3 * grid.triangles.size());
-  for (const auto& triangle : grid.triangles)
-    for (const LocalIndex point : triangle) result.push_back(grid.point_id[point]);
+/// [cells][corners] ids of points.
+std::vector<GlobalIndex> corner_ids(const Grid& grid, const Cells& cells) {
+  std::vector<GlobalIndex> result(cells.points.size());
+  std::transform(cells.points.begin(), cells.points.end(), result.begin(), [&](LocalIndex point) { return grid.point_id[point]; });
   return result;
 }
 
@@ -66,23 +65,29 @@ struct FieldWriter::Impl {
 
   void write(const Grid& grid, const std::vector<FieldData>& fields, double time) {
     begin(time);
-    check(grid, fields, comm);
-    const std::uint64_t found = fingerprint(grid, comm);
+    const Cells cells = cells_of(grid);
+    check(grid, cells, fields, comm);
+    const std::uint64_t found = fingerprint(grid, cells, comm);
     const bool new_mesh = grids == 0 || found != mesh_fingerprint;
-    XdmfGrid next{grids, new_mesh ? grids : last.mesh, grid.global_points, grid.global_triangles, time, {}};
+    XdmfGrid next{grids, new_mesh ? grids : last.mesh, grid.global_points, cells.global, cells.corners, time, {}};
     for (const FieldData& field : fields) next.attributes.push_back({field.name, field.centre, field.components == 1 ? 1 : 3});
 
     const SlabExchange points(grid.point_id, grid.point_owner, grid.global_points, "point", comm);
-    const SlabExchange triangles(grid.triangle_id, grid.triangle_owner, grid.global_triangles, "triangle", comm);
+    const SlabExchange of_cells(cells.id, cells.owner, cells.global, cell_name(cells.corners), comm);
     Hdf5File file(data_path, Hdf5File::Mode::extend, room_of(next, new_mesh), comm);
     // Whatever stops the writing now leaves the file in an unknown state.
     open = false;
-    if (new_mesh) write_mesh(file, fmt::format("/mesh_{}", next.mesh), grid, points, triangles);
+    if (new_mesh) {
+      const std::string mesh = fmt::format("/mesh_{}", next.mesh);
+      write_points(file, mesh, grid, points);
+      file.add_array(mesh + "/" + cell_array(cells.corners), of_cells.slab(), cells.corners,
+                     of_cells(corner_ids(grid, cells).data(), cells.corners, cells.corners));
+    }
     const std::string group = fmt::format("/fields_{}", next.number);
     file.add_group(group);
     file.add_attribute(group, "time", time);
     for (std::size_t k = 0; k < fields.size(); ++k) {
-      const SlabExchange& exchange = fields[k].centre == Centre::vertex ? points : triangles;
+      const SlabExchange& exchange = fields[k].centre == Centre::vertex ? points : of_cells;
       const int columns = next.attributes[k].columns;
       file.add_array(group + "/" + fields[k].name, exchange.slab(), columns,
                      exchange(fields[k].values.data(), fields[k].components, columns));
@@ -98,12 +103,10 @@ struct FieldWriter::Impl {
     open = true;
   }
 
-  static void write_mesh(Hdf5File& file, const std::string& group, const Grid& grid, const SlabExchange& points,
-                         const SlabExchange& triangles) {
+  static void write_points(Hdf5File& file, const std::string& group, const Grid& grid, const SlabExchange& points) {
     file.add_group(group);
     const double* coordinates = grid.points.empty() ? nullptr : grid.points.front().data();
     file.add_array(group + "/points", points.slab(), 2, points(coordinates, 2, 2));
-    file.add_array(group + "/triangles", triangles.slab(), 3, triangles(global_triangles(grid).data(), 3, 3));
   }
 
   void list() {

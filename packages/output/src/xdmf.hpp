@@ -17,7 +17,8 @@ struct XdmfAttribute {
 /// One grid of the file: `/mesh_<mesh>` with the fields in `/fields_<number>`.
 struct XdmfGrid {
   int number = 0, mesh = 0;
-  GlobalIndex points = 0, triangles = 0;
+  GlobalIndex points = 0, cells = 0;
+  int corners = 3;  ///< of a cell
   double time = 0;
   std::vector<XdmfAttribute> attributes;
 };
@@ -25,6 +26,8 @@ struct XdmfGrid {
 /// A `<Grid>` element that refers to `data`, the name of the HDF5 file beside it. Only grids of a collection have their time: readers of
 /// single grids (meshio) do not know it.
 std::string xdmf_grid(const XdmfGrid& grid, const std::string& data, bool with_time);
+/// The array of `/mesh_<m>` with the cells: segments, triangles, quadrilaterals.
+std::string cell_array(int corners);
 /// The whole text: one grid, or the elements of several ones in a collection in time.
 std::string xdmf_single(const std::string& grid);
 std::string xdmf_series(const std::string& grids);

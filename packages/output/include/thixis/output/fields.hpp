@@ -16,7 +16,7 @@ namespace thixis::output {
 /// Where the values of a field sit.
 enum class Centre { vertex, cell };
 
-/// Values on the local vertices (cells) of a mesh, or on the local points (triangles) of a grid. Ghosts are not read: the values may end
+/// Values on the local vertices (cells) of a mesh, or on the local points (cells) of a grid. Ghosts are not read: the values may end
 /// after the last owned entity, e.g. after `owned_cells` cells. They are written as they are, also those that are not finite.
 struct FieldData {
   std::string name;  ///< letters, digits, '_', '-', '.' and inner spaces; one field of that name per call
@@ -25,10 +25,19 @@ struct FieldData {
   int components = 1;          ///< 1, 2 or 3; two of them are stored with a third one, 0, because ParaView knows no others
 };
 
-/// What the file shows: plain triangles on this rank, ghosts or not. A discontinuous field of high order is a grid of its own, whose cells
-/// are the pieces of those of the mesh and share no points.
+/// Segments or quadrilaterals, on this rank, ghosts or not.
+struct Cells {
+  int corners = 0;  ///< of each cell: 2 or 4, the same on all ranks; 0: there are none
+  GlobalIndex global = 0;
+  std::vector<LocalIndex> points;  ///< [cells][corners] local points, those of a quadrilateral counter-clockwise
+  std::vector<GlobalIndex> id;
+  std::vector<int> owner;  ///< ranks
+};
+
+/// What the file shows: plain triangles on this rank, ghosts or not, or other cells in their place. A discontinuous field of high order is
+/// a grid of its own, whose cells are the pieces of those of the mesh and share no points.
 ///
-/// Ids are 0..points-1 and 0..triangles-1 over all ranks; the rank that owns an entity holds it, and no other rank says that it owns it.
+/// Ids are 0..points-1 and 0..cells-1 over all ranks; the rank that owns an entity holds it, and no other rank says that it owns it.
 struct Grid {
   GlobalIndex global_points = 0, global_triangles = 0;
   std::vector<std::array<double, 2>> points;
@@ -37,6 +46,10 @@ struct Grid {
   std::vector<std::array<LocalIndex, 3>> triangles;  ///< local points
   std::vector<GlobalIndex> triangle_id;
   std::vector<int> triangle_owner;  ///< ranks
+  Cells others;                     ///< in place of triangles, of which there are none then
+
+  /// Local cells of whatever kind.
+  std::size_t cells() const { return others.corners == 0 ? triangles.size() : others.id.size(); }
 };
 
 /// Writes `fields.h5` and `fields.xdmf` (XDMF 3, relative paths): one file for all ranks, collectively, in the order of global ids, so
@@ -48,8 +61,9 @@ struct Grid {
 /// looked at and a killed one leaves what it has written. (The XDMF text lists all grids so far: beyond 128 of them it is renewed
 /// once per 64th of their number, and by close().)
 ///
-/// HDF5: `/mesh_<m>/{points [points][2], triangles [triangles][3]}`, `/fields_<n>/<name> [entities]` or `[entities][3]`, and the attribute
-/// `time` of `/fields_<n>`.
+/// HDF5: `/mesh_<m>/points [points][2]`, `/mesh_<m>/triangles [triangles][3]` (or in its place `segments [segments][2]`, `quadrilaterals
+/// [quadrilaterals][4]`), `/fields_<n>/<name> [entities]` or `[entities][3]`, and the attribute `time` of `/fields_<n>`. XDMF: Triangle
+/// (Polyline of two nodes, Quadrilateral).
 class FieldWriter {
  public:
   /// Creates an empty fields.h5 in an existing folder; an old fields.xdmf is removed.
@@ -58,7 +72,7 @@ class FieldWriter {
   FieldWriter(const FieldWriter&) = delete;
   FieldWriter& operator=(const FieldWriter&) = delete;
 
-  /// One grid with its fields; `time` grows from call to call. The mesh is written anew only when its points, triangles or
+  /// One grid with its fields; `time` grows from call to call. The mesh is written anew only when its points, cells or
   /// numbers differ from those of the previous call.
   void write(const mesh::Mesh& mesh, const std::vector<FieldData>& fields, double time);
   void write(const Grid& grid, const std::vector<FieldData>& fields, double time);
