@@ -21,9 +21,10 @@ enum class CapillaryLaw {
 
 enum class FlowBoundaryKind { no_flow, flux, state };
 
-/// A state of the fluids: numbers or expressions of x, y (and t on the boundary). Of S and s_g one is given.
+/// A state of the fluids: numbers or expressions of x, y, t, r, pi and the constants. Not given: s_g = 0, P = 1e6 Pa, chi = 0.
 struct FlowStateParams {
-  core::Formula S, s_g, P, chi;
+  core::Formula S, s_g;  ///< one of them: S = 1 - s_g
+  core::Formula P, chi;
   static const core::Schema<FlowStateParams>& schema();
 };
 
@@ -76,6 +77,7 @@ struct FlowBoundary {
 struct TwoPhaseScene {
   std::string name;      ///< of the case, or "flow"
   std::string sentence;  ///< what it shows
+  std::string time_unit;  ///< "year" where the rates of a case are meant per year; empty: whatever the deck says
   RockAndFluids medium;
   CapillaryLaw capillary_law = CapillaryLaw::van_genuchten;
   std::array<double, 2> gravity = {0, 0};       ///< g [m/s^2]
