@@ -80,7 +80,7 @@ Cells cells_of(const Grid& grid) {
 const char* cell_name(int corners) { return corners == 2 ? "segment" : corners == 3 ? "triangle" : "quadrilateral"; }
 
 std::uint64_t fingerprint(const Grid& grid, const Cells& cells, const core::Comm& comm) {
-  std::uint64_t sum = comm.root() ? mixed(mixed(mixed(0, grid.global_points), cells.global), cells.corners) : 0;
+  std::uint64_t sum = comm.root() ? mixed(mixed(0, grid.global_points), cells.global) : 0;
   for (std::size_t a = 0; a < grid.points.size(); ++a)
     if (grid.point_owner[a] == comm.rank())
       sum += mixed(mixed(mixed(1, grid.point_id[a]), bits(grid.points[a][0])), bits(grid.points[a][1]));
