@@ -52,6 +52,28 @@ struct GradientError {
   }
 };
 
+struct ValueError {
+  CellFunctions functions;
+  QuadratureBlock block;
+  Values known;
+  Entry entries;
+  Coefficients u;
+
+  KOKKOS_FUNCTION void operator()(int e, double& sum) const {
+    const int n = functions.size();
+    double local[most], c[most], B[most];
+    for (int l = 0; l < n; ++l) local[l] = u(entries(block.first + e, l));
+    functions.to_bernstein(local, c);
+    for (int q = block.offset(e); q < block.offset(e + 1); ++q) {
+      const double xi = block.xi(q, 0), eta = block.xi(q, 1), lambda[3] = {1 - xi - eta, xi, eta};
+      functions.B.values(lambda, B);
+      double difference = known(q);
+      for (int k = 0; k < n; ++k) difference -= c[k] * B[k];
+      sum += block.weight(q) * difference * difference;
+    }
+  }
+};
+
 struct Apply {
   LocalMatrices A;
   LocalIndex first;
@@ -172,6 +194,14 @@ Kokkos::RangePolicy<> range(LocalIndex count) { return Kokkos::RangePolicy<>(0, 
 
 void moments(const CellFunctions& functions, const QuadratureBlock& block, const Values& f, const Block2& F) {
   Kokkos::parallel_for("thixis::method::moments", range(block.cells), Moments{functions, block, f, F});
+}
+
+double value_error(const CellFunctions& functions, const QuadratureBlock& block, LocalIndex cells, const Values& known,
+                   const Entry& entries, const Coefficients& u) {
+  double sum = 0;
+  Kokkos::parallel_reduce("thixis::method::value_error", Kokkos::RangePolicy<>(0, cells), ValueError{functions, block, known, entries, u},
+                          sum);
+  return sum;
 }
 
 double gradient_error(const CellFunctions& functions, const mesh::Mesh& mesh, const QuadratureBlock& block, LocalIndex cells,

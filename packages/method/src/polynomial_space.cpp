@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "mass_form.hpp"
 #include "polynomial_kernels.hpp"
 #include "thixis/algebra/tpetra.hpp"
 #include "thixis/core/assert.hpp"
@@ -111,6 +112,7 @@ PolynomialSpace::PolynomialSpace(const mesh::Mesh& mesh, const SpaceOptions& opt
       cells_(patch_cells(mesh)),
       quadrature_(make_quadrature(mesh, cells_, options.params.order(), options.level_set)),
       elements_(columns_of(structure_.element_entries, numbering_.column_of_entry)),
+      level_set_(options.level_set),
       position_(mesh.cells, -1) {
   for (LocalIndex k = 0; k < cells_.extent_int(0); ++k) position_[cells_(k)] = k;
   const bool as_cells = structure_.coupled_entries.extent(0) == 0;
@@ -140,24 +142,22 @@ Teuchos::RCP<const algebra::MultiVector> PolynomialSpace::coordinates() const {
 
 // -- forms --------------------------------------------------------------------------------------------------------------------------
 
-algebra::MatrixPtr PolynomialSpace::stiffness(const scene::Field& tension) const {
+algebra::MatrixPtr PolynomialSpace::assemble(const CellForm& form) const {
   auto S = Teuchos::rcp(new algebra::Matrix(graph_));
   S->fillComplete();
-  const auto form = cell_form(tension);
   const int n = elements_.extent_int(1);
   const LocalIndex most = cells_per_block(n);
   const LocalMatrices A("thixis::method::local_matrices", std::min(most, cells_.extent_int(0)), n, n);
   over_blocks(most, [&](LocalIndex first, LocalIndex count) {
     const LocalMatrices block = Kokkos::subview(A, std::pair(0, count), Kokkos::ALL, Kokkos::ALL);
-    form->matrices(first, block);
+    form.matrices(first, block);
     scatter(elements_, first, block, *S);
   });
   return S;
 }
 
-void PolynomialSpace::forces(const scene::Field& tension, const Coefficients& u, Vector& y) const {
+void PolynomialSpace::apply_form(const CellForm& form, const Coefficients& u, Vector& y) const {
   y.putScalar(0);
-  const auto form = cell_form(tension);
   const int n = elements_.extent_int(1);
   const LocalIndex most = cells_per_block(n), length = std::min(most, cells_.extent_int(0));
   const LocalMatrices A("thixis::method::local_matrices", length, n, n);
@@ -165,10 +165,27 @@ void PolynomialSpace::forces(const scene::Field& tension, const Coefficients& u,
   over_blocks(most, [&](LocalIndex first, LocalIndex count) {
     const LocalMatrices block = Kokkos::subview(A, std::pair(0, count), Kokkos::ALL, Kokkos::ALL);
     const Block2 part = Kokkos::subview(local, std::pair(0, count), Kokkos::ALL);
-    form->matrices(first, block);
+    form.matrices(first, block);
     apply(block, first, structure_.element_entries, u, part);
     scatter(elements_, first, part, y);
   });
+}
+
+algebra::MatrixPtr PolynomialSpace::stiffness(const scene::Field& tension) const { return assemble(*cell_form(tension)); }
+
+void PolynomialSpace::forces(const scene::Field& tension, const Coefficients& u, Vector& y) const { apply_form(*cell_form(tension), u, y); }
+
+algebra::MatrixPtr PolynomialSpace::mass() const { return assemble(*with_mass(nullptr, 0, 1)); }
+
+std::shared_ptr<const CellForm> PolynomialSpace::with_mass(const std::shared_ptr<const CellForm>& form, double factor,
+                                                           double weight) const {
+  return std::make_shared<MassForm>(mesh_, cells_, basis_, form, factor, weight);
+}
+
+void PolynomialSpace::apply_mass(const Coefficients& w, Vector& y) const { apply_form(*with_mass(nullptr, 0, 1), w, y); }
+
+void PolynomialSpace::move_interface(double t) {
+  if (level_set_) quadrature_ = make_quadrature(mesh_, cells_, params_.order(), level_set_, t);
 }
 
 void PolynomialSpace::add_moments(const scene::Field& f, double t, Vector& F) const {
@@ -484,6 +501,22 @@ double PolynomialSpace::energy(const scene::Field& tension, const Coefficients& 
 
 double PolynomialSpace::energy_error(const scene::Field& tension, const Coefficients& u, const Gradient& exact, double t) const {
   return error(tension, u, &exact, t);
+}
+
+double PolynomialSpace::l2_error(const Coefficients& u, const scene::Field& exact, double t) const {
+  const double sum = mesh_.comm.together([&] {
+    const View<double*> known("thixis::method::exact", quadrature_.largest_block);
+    const CellFunctions basis = cell_functions(basis_);
+    double here = 0;
+    for_each_block(quadrature_, [&](const QuadratureBlock& block) {
+      const LocalIndex owned = std::min(block.cells, mesh_.owned_cells - block.first);
+      if (owned <= 0) return;
+      evaluate(exact, t, block, known);
+      here += value_error(basis, block, owned, known, structure_.element_entries, u);
+    });
+    return here;
+  });
+  return mesh_.comm.sum(sum);
 }
 
 double PolynomialSpace::penetration(const Coefficients& u, const scene::Field* obstacle, double t) const {

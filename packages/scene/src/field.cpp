@@ -26,7 +26,11 @@ class Constant final : public Field {
 class ExpressionField final : public Field {
  public:
   ExpressionField(std::string name, core::Expression expression, const std::vector<double>& centre)
-      : name_(std::move(name)), expression_(std::move(expression)), centre_{centre[0], centre[1]}, radial_(expression_.uses("r")) {}
+      : name_(std::move(name)),
+        expression_(std::move(expression)),
+        centre_{centre[0], centre[1]},
+        radial_(expression_.uses("r")),
+        steady_(!expression_.uses("t")) {}
 
   void evaluate(const Points& points, double t, double* values) const override {
     std::array<double, block> time, radius;
@@ -41,12 +45,13 @@ class ExpressionField final : public Field {
       require_finite(name_, part, t, values + begin);
     }
   }
+  bool steady() const override { return steady_; }
 
  private:
   std::string name_;
   core::Expression expression_;
   double centre_[2];
-  bool radial_;
+  bool radial_, steady_;
 };
 
 /// One component of the gradient: (45 (u_1 - u_-1) - 9 (u_2 - u_-2) + (u_3 - u_-3)) / (60 step), u_k = u(x + k step e).
@@ -70,6 +75,7 @@ class Difference final : public Field {
         }
     }
   }
+  bool steady() const override { return u_->steady(); }
 
  private:
   FieldPtr u_;

@@ -40,6 +40,10 @@ class PolynomialSpace : public Space {
   algebra::MatrixPtr stiffness(const scene::Field& tension) const override;
   const ElementUnknowns& elements() const final { return elements_; }
   int interior() const final { return structure_.interior; }
+  algebra::MatrixPtr mass() const final;
+  std::shared_ptr<const CellForm> with_mass(const std::shared_ptr<const CellForm>& form, double factor, double weight) const final;
+  void apply_mass(const Coefficients& w, algebra::Vector& y) const final;
+  void move_interface(double t) final;
 
   /// Nodal interpolation at the held entries.
   Coefficients lift(const BoundaryValues& boundary, double t) const override;
@@ -62,6 +66,7 @@ class PolynomialSpace : public Space {
 
   double energy(const scene::Field& tension, const Coefficients& u) const final;
   double energy_error(const scene::Field& tension, const Coefficients& u, const Gradient& exact, double t) const final;
+  double l2_error(const Coefficients& u, const scene::Field& exact, double t) const final;
   double penetration(const Coefficients& u, const scene::Field* obstacle, double t) const final;
 
   // -- what error estimates read ----------------------------------------------------------------------------------------------------
@@ -133,7 +138,10 @@ class PolynomialSpace : public Space {
   /// The same of all owned cells; not collective.
   CellCoefficients of_own_cells(const Coefficients& u) const;
   double error(const scene::Field& tension, const Coefficients& u, const Gradient* exact, double t) const;
+  algebra::MatrixPtr assemble(const CellForm& form) const;
+  void apply_form(const CellForm& form, const Coefficients& u, algebra::Vector& y) const;
 
+  scene::FieldPtr level_set_;
   std::vector<LocalIndex> position_;
   mutable std::vector<int> sharers_;  ///< cells of each unknown of this rank; made when a residual is first shared out
   algebra::MapPtr points_;

@@ -104,6 +104,18 @@ class Space {
   /// The part of a(.,.) that is a sum over cells: all of it where interior() > 0.
   virtual std::shared_ptr<const CellForm> cell_form(const scene::Field& tension) const = 0;
 
+  // The L² product of the functions in the cells, exactly: the mass of unknowns on faces is 0.
+  /// M_lm = (psi_m, psi_l), on graph() like the stiffness.
+  virtual algebra::MatrixPtr mass() const = 0;
+  /// factor a_K(u, v) + weight (u, v)_K, cell by cell; `form` null: the mass alone.
+  virtual std::shared_ptr<const CellForm> with_mass(const std::shared_ptr<const CellForm>& form, double factor, double weight) const = 0;
+  /// y_l = (w, psi_l).
+  virtual void apply_mass(const Coefficients& w, algebra::Vector& y) const = 0;
+
+  /// From now on integrals of data follow the curves across which these jump at time t: loads, moments of multipliers, errors. Forms with
+  /// varying tensions made before keep their quadrature. Collective; throws InputError as make_quadrature does.
+  virtual void move_interface(double t) = 0;
+
   /// Coefficients of the lift of the Dirichlet data: what they fix, 0 elsewhere.
   virtual Coefficients lift(const BoundaryValues& boundary, double t) const = 0;
   /// F_l = (f, psi_l) + <t, psi_l> over the Neumann boundary + what weakly imposed Dirichlet data give.
@@ -132,6 +144,8 @@ class Space {
   /// ∫ mu |grad u_h|² and ∫ mu |grad u - grad u_h|² over the whole mesh, cell by cell. Collective.
   virtual double energy(const scene::Field& tension, const Coefficients& u) const = 0;
   virtual double energy_error(const scene::Field& tension, const Coefficients& u, const Gradient& exact, double t) const = 0;
+  /// ∫ (u - u_h)² over the whole mesh. Collective.
+  virtual double l2_error(const Coefficients& u, const scene::Field& exact, double t) const = 0;
   /// max(max(obstacle - u_h, 0)) over all points of all cells, to a few per cent (a lattice of 8p points a side). `obstacle` null: zero.
   virtual double penetration(const Coefficients& u, const scene::Field* obstacle, double t) const = 0;
 

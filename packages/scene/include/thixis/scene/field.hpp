@@ -26,6 +26,8 @@ class Field {
   virtual void evaluate(const Points& points, double t, double* values) const = 0;
   /// The value if the function is constant in place and time, so that kernels may skip the evaluation.
   virtual const double* constant() const { return nullptr; }
+  /// Whether it is known not to depend on time: what is made of it may be kept.
+  virtual bool steady() const { return constant() != nullptr; }
 };
 using FieldPtr = std::shared_ptr<const Field>;
 
@@ -63,6 +65,7 @@ class Formula final : public Field {
     }
     require_finite(name_, points, t, values);
   }
+  bool steady() const override { return !std::is_invocable_v<const F&, double, double, double>; }
 
  private:
   F f_;
