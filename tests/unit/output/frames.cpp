@@ -257,7 +257,7 @@ TEST(frames, that_are_many_are_all_listed_when_the_run_goes_on_and_in_the_end) {
 TEST(frames, of_segments_and_of_quadrilaterals_go_on_with_the_same_mesh) {
   const core::Comm comm;
   for (const int corners : {2, 4}) {
-    const std::string kind = corners == 2 ? "segments" : "quadrilaterals", folder = scratch("for_meshio/" + kind),
+    const std::string kind = corners == 2 ? "segments" : "quadrilaterals", folder = scratch("for_meshio/frames_of_" + kind),
                       whole = scratch("frames_of_" + kind);
     const Grid grid = other_grid(corners, comm);
     const auto write = [&](FieldWriter& writer, int from, int to) {
