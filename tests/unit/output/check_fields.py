@@ -1,7 +1,7 @@
 """Reads the folders that the unit tests left (one per number of ranks) with meshio and compares them.
 
-Each folder holds `single/` (one grid of the disk), `series/` (two grids in time in one file) and `frames/` (three of them in files of their
-own, the last one on a finer mesh). Fails with a sentence; exit code 77: meshio is missing.
+Each folder holds `single/` (one grid of the disk), `series/` (two grids in time in one file), `frames/` (three of them in files of their
+own, the last one on a finer mesh), `segments/` and `quadrilaterals/` (three of them on other cells). Fails with a sentence; exit code 77: meshio is missing.
 """
 import math
 import pathlib
@@ -102,6 +102,19 @@ def check_frames(folder):
             require((point_data["u"] == u).all() and (cell_data["flow"][0] == flow).all(), f"meshio reads other values in frame {n}")
 
 
+def check_other_cells(folder):
+    for name, kind, corners in ("segments", "line", 2), ("quadrilaterals", "quad", 4):
+        with meshio.xdmf.TimeSeriesReader(folder / name / "fields.xdmf") as reader:
+            points, cells = reader.read_points_cells()
+            found = cells[kind] if isinstance(cells, dict) else next(block.data for block in cells if block.type == kind)
+            require(len(points) == 10 and found.shape == (4, corners), f"{name} are {found.shape} on {len(points)} points")
+            left = points[found[:, 0], 0]
+            require((abs(left - (3 - numpy.arange(4)) / 3) < 1e-15).all(), f"{name} stand at {left}")
+            for n in range(3):
+                time, _, cell_data = reader.read_data(n)
+                require(time == n and (cell_data["u"][0] == numpy.arange(4.0) + n).all(), f"frame {n} on {name} has other values")
+
+
 def arrays(folder):
     found = {}
     for path in sorted(folder.glob("*/fields.h5")):
@@ -115,6 +128,7 @@ def main(folders):
         check_single(folder)
         check_series(folder)
         check_frames(folder)
+        check_other_cells(folder)
     first = arrays(folders[0])
     require(len(first) == 9, f"{len(first)} arrays: {sorted(first)}")
     for folder in folders[1:]:
