@@ -48,14 +48,18 @@ double mean_order(MethodName method, int degree, int refinements, double factor)
   return mean;
 }
 
-/// On a mesh whose own error is far below.
+/// On a mesh whose own error is far below; at the ends of the steps, where the error of the affine interpolation, of order 2, is not seen.
 void expect_order_in_time(MethodName method, int n, int fewest) {
-  std::vector<double> errors;
-  for (const int factor : {1, 2, 4}) errors.push_back(error(reduced("smooth moving contact", n, method, 4), fewest * factor));
+  std::vector<double> ends, all;
+  for (const int factor : {1, 2, 4}) {
+    const March run = march(reduced("smooth moving contact", n, method, 4), fewest * factor, 1);
+    ends.push_back(run.error_at_ends(1.0 / (fewest * factor)));
+    all.push_back(run.evolution->energy_error().value());
+  }
   std::cout << text(method) << " in time, " << fewest << " … steps:";
-  for (const double e : errors) std::cout << ' ' << e;
-  std::cout << ", orders " << order(errors[0], errors[1]) << ' ' << order(errors[1], errors[2]) << '\n';
-  EXPECT_NEAR(order(errors[1], errors[2]), 1, 0.1) << text(method);
+  for (int k = 0; k < 3; ++k) std::cout << ' ' << ends[k] << " (" << all[k] << ')';
+  std::cout << ", orders " << order(ends[0], ends[1]) << ' ' << order(ends[1], ends[2]) << " (" << order(all[1], all[2]) << ")\n";
+  EXPECT_NEAR(order(ends[1], ends[2]), 1, 0.1) << text(method);
 }
 
 }  // namespace
@@ -72,7 +76,7 @@ TEST(Orders, in_space_of_hybrid_methods) {
   expect_order_in_space(MethodName::hho, 3, 8, 0.1);
 }
 
-TEST(Orders, in_space_of_discontinuous_methods) { expect_order_in_space(MethodName::dg, 2, 8, 0.1); }
+TEST(FarOrders, in_space_of_discontinuous_methods) { expect_order_in_space(MethodName::dg, 2, 8, 0.1); }
 
 TEST(FarOrders, in_space_of_degree_4) {
   expect_order_in_space(MethodName::fem, 4, 8, 0.15);
