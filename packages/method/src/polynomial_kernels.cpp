@@ -196,8 +196,8 @@ void moments(const CellFunctions& functions, const QuadratureBlock& block, const
   Kokkos::parallel_for("thixis::method::moments", range(block.cells), Moments{functions, block, f, F});
 }
 
-double value_error(const CellFunctions& functions, const QuadratureBlock& block, LocalIndex cells, const Values& known, const Entry& entries,
-                   const Coefficients& u) {
+double value_error(const CellFunctions& functions, const QuadratureBlock& block, LocalIndex cells, const Values& known,
+                   const Entry& entries, const Coefficients& u) {
   double sum = 0;
   Kokkos::parallel_reduce("thixis::method::value_error", Kokkos::RangePolicy<>(0, cells), ValueError{functions, block, known, entries, u},
                           sum);

@@ -23,8 +23,8 @@ double gradient_error(const CellFunctions& functions, const mesh::Mesh& mesh, co
                       const AtPoints& known, const Entry& entries, const Coefficients& u);
 
 /// Sum over the first `cells` cells of a block of ∫_K (u - u_h)²; known(q) = u at its points.
-double value_error(const CellFunctions& functions, const QuadratureBlock& block, LocalIndex cells, const Values& known, const Entry& entries,
-                   const Coefficients& u);
+double value_error(const CellFunctions& functions, const QuadratureBlock& block, LocalIndex cells, const Values& known,
+                   const Entry& entries, const Coefficients& u);
 
 /// y(e, i) = sum_j A(e, i, j) u(entries(first + e, j)).
 void apply(const LocalMatrices& A, LocalIndex first, const Entry& entries, const Coefficients& u, const Block2& y);

@@ -173,9 +173,7 @@ void PolynomialSpace::apply_form(const CellForm& form, const Coefficients& u, Ve
 
 algebra::MatrixPtr PolynomialSpace::stiffness(const scene::Field& tension) const { return assemble(*cell_form(tension)); }
 
-void PolynomialSpace::forces(const scene::Field& tension, const Coefficients& u, Vector& y) const {
-  apply_form(*cell_form(tension), u, y);
-}
+void PolynomialSpace::forces(const scene::Field& tension, const Coefficients& u, Vector& y) const { apply_form(*cell_form(tension), u, y); }
 
 algebra::MatrixPtr PolynomialSpace::mass() const { return assemble(*with_mass(nullptr, 0, 1)); }
 

@@ -14,6 +14,8 @@ class LinearizedSystem {
   virtual ~LinearizedSystem() = default;
   virtual void linearize(const algebra::Vector& a, const algebra::Vector& b) = 0;
   virtual algebra::LinearReport solve(const algebra::Vector& R, algebra::Vector& dX, const algebra::LinearStop& stop) = 0;
+  /// The values of the operator's matrices have changed; its loads may change at any time.
+  virtual void renew() {}
   virtual GlobalIndex nonzeros() const = 0;
 };
 

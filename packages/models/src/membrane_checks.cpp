@@ -20,9 +20,9 @@ struct PointList {
     x.push_back(px);
     y.push_back(py);
   }
-  std::vector<double> evaluate(const scene::Field& field) const {
+  std::vector<double> evaluate(const scene::Field& field, double t = 0) const {
     std::vector<double> values(x.size());
-    field.evaluate({x.size(), x.data(), y.data()}, 0, values.data());
+    field.evaluate({x.size(), x.data(), y.data()}, t, values.data());
     return values;
   }
 };
@@ -43,37 +43,6 @@ PointList points_on(const mesh::Mesh& mesh, const mesh::HostMesh& host, std::siz
 /// The deck's names of what belongs to membrane alpha: g1, g2; g over an obstacle.
 std::string named(const scene::MembraneScene& scene, const char* letter, int alpha) {
   return scene.count == 1 ? letter : letter + std::to_string(alpha + 1);
-}
-
-/// Throws where g1 < g2 (g < psi) on a held face, since no solution exists then, and where boundary data are not finite. Looks at the ends
-/// of the faces, and for degree >= 2 inside, too. Collective.
-void check_boundary(const scene::MembraneScene& scene, const Boundary& boundary, const method::MethodParams& method,
-                    const mesh::Mesh& mesh) {
-  const std::vector<double> inside = reference::line_quadrature(method.order()).point;
-  std::vector<double> held = {0, 1};
-  if (method.degree > 1) held.insert(held.end(), inside.begin(), inside.end());
-  const bool one = scene.count == 1;
-  mesh.comm.together([&] {
-    const auto host = mesh::on_host(mesh);
-    for (std::size_t tag = 0; tag < boundary.dirichlet.size(); ++tag) {
-      const PointList at = points_on(mesh, host, tag, boundary.dirichlet[tag] ? held : inside);
-      if (!boundary.dirichlet[tag]) {
-        for (int alpha = 0; alpha < scene.count; ++alpha) at.evaluate(*boundary.values[alpha].neumann[tag]);
-        continue;
-      }
-      const auto upper = at.evaluate(*boundary.values[0].dirichlet[tag]),
-                 lower = at.evaluate(one ? *scene.obstacle : *boundary.values[1].dirichlet[tag]);
-      double size = 0;
-      for (std::size_t i = 0; i < upper.size(); ++i) size = std::max({size, std::abs(upper[i]), std::abs(lower[i])});
-      for (std::size_t i = 0; i < upper.size(); ++i)
-        if (upper[i] < lower[i] - 1e-12 * size)
-          throw core::InputError(fmt::format(
-              "{}: on the boundary '{}' {}: {} = {:.6g} < {} = {:.6g} at ({:.6g}, {:.6g}); give boundary data with {} >= {}.",
-              scene.boundary.count(mesh.tags[tag]) > 0 ? "scene/boundary/" + mesh.tags[tag] : "scene/data/" + named(scene, "g", 0),
-              mesh.tags[tag], one ? "the membrane lies below the obstacle" : "the upper membrane lies below the lower one",
-              named(scene, "g", 0), upper[i], one ? "psi" : "g2", lower[i], at.x[i], at.y[i], named(scene, "g", 0), one ? "psi" : "g2"));
-    }
-  });
 }
 
 /// Throws where the values of two held parts of the boundary differ at a vertex where they meet: no function of finite energy has such
@@ -165,6 +134,64 @@ void check_initial(const std::array<scene::FieldPtr, 3>& initial, const mesh::Me
 
 }  // namespace
 
+void check_boundary(const scene::MembraneScene& scene, const Boundary& boundary, const method::MethodParams& method, const mesh::Mesh& mesh,
+                    double t) {
+  const std::vector<double> inside = reference::line_quadrature(method.order()).point;
+  std::vector<double> held = {0, 1};  // the ends, and for degree >= 2 inside, too
+  if (method.degree > 1) held.insert(held.end(), inside.begin(), inside.end());
+  const bool one = scene.count == 1;
+  mesh.comm.together([&] {
+    const auto host = mesh::on_host(mesh);
+    for (std::size_t tag = 0; tag < boundary.dirichlet.size(); ++tag) {
+      const PointList at = points_on(mesh, host, tag, boundary.dirichlet[tag] ? held : inside);
+      if (!boundary.dirichlet[tag]) {
+        for (int alpha = 0; alpha < scene.count; ++alpha) at.evaluate(*boundary.values[alpha].neumann[tag], t);
+        continue;
+      }
+      const auto upper = at.evaluate(*boundary.values[0].dirichlet[tag], t),
+                 lower = at.evaluate(one ? *scene.obstacle : *boundary.values[1].dirichlet[tag], t);
+      double size = 0;
+      for (std::size_t i = 0; i < upper.size(); ++i) size = std::max({size, std::abs(upper[i]), std::abs(lower[i])});
+      for (std::size_t i = 0; i < upper.size(); ++i)
+        if (upper[i] < lower[i] - 1e-12 * size)
+          throw core::InputError(fmt::format(
+              "{}: on the boundary '{}' {}: {} = {:.6g} < {} = {:.6g} at ({:.6g}, {:.6g}){}; give boundary data with {} >= {}.",
+              scene.boundary.count(mesh.tags[tag]) > 0 ? "scene/boundary/" + mesh.tags[tag] : "scene/data/" + named(scene, "g", 0),
+              mesh.tags[tag], one ? "the membrane lies below the obstacle" : "the upper membrane lies below the lower one",
+              named(scene, "g", 0), upper[i], one ? "psi" : "g2", lower[i], at.x[i], at.y[i], t > 0 ? fmt::format(", t = {:.6g}", t) : "",
+              named(scene, "g", 0), one ? "psi" : "g2"));
+    }
+  });
+}
+
+void check_order(const scene::FieldPtr (&initial)[2], const method::MethodParams& method, const mesh::Mesh& mesh) {
+  const auto rule = reference::triangle_quadrature(method.order());
+  mesh.comm.together([&] {
+    const auto host = mesh::on_host(mesh);
+    PointList at;
+    for (LocalIndex K = 0; K < mesh.owned_cells; ++K) {
+      const auto add = [&](double xi, double eta) {
+        const double lambda[3] = {1 - xi - eta, xi, eta};
+        double x[2] = {0, 0};
+        for (int a = 0; a < 3; ++a)
+          for (int d = 0; d < 2; ++d) x[d] += lambda[a] * host.coordinates(host.cell_vertices(K, a), d);
+        at.add(x[0], x[1]);
+      };
+      for (const auto& [xi, eta] : {std::pair(0.0, 0.0), std::pair(1.0, 0.0), std::pair(0.0, 1.0)}) add(xi, eta);
+      for (int q = 0; q < rule.size(); ++q) add(rule.point[2 * q], rule.point[2 * q + 1]);
+    }
+    const auto upper = at.evaluate(*initial[0]), lower = at.evaluate(*initial[1]);
+    double size = 0;
+    for (std::size_t i = 0; i < upper.size(); ++i) size = std::max({size, std::abs(upper[i]), std::abs(lower[i])});
+    for (std::size_t i = 0; i < upper.size(); ++i)
+      if (upper[i] < lower[i] - 1e-12 * size)
+        throw core::InputError(
+            fmt::format("scene/data/initial: the upper membrane begins below the lower one: u1 = {:.6g} < u2 = {:.6g} at ({:.6g}, {:.6g}); "
+                        "give initial values with u1 >= u2.",
+                        upper[i], lower[i], at.x[i], at.y[i]));
+  });
+}
+
 Boundary boundary_of(const scene::MembraneScene& scene, const mesh::Mesh& mesh) {
   for (const auto& [tag, condition] : scene.boundary)
     if (std::find(mesh.tags.begin(), mesh.tags.end(), tag) == mesh.tags.end()) {
@@ -198,7 +225,7 @@ Boundary boundary_of(const scene::MembraneScene& scene, const mesh::Mesh& mesh) 
 void check_functions(const scene::MembraneScene& scene, const std::array<scene::FieldPtr, 3>& initial, const method::MethodParams& method,
                      const mesh::Mesh& mesh) {
   const Boundary boundary = boundary_of(scene, mesh);
-  check_boundary(scene, boundary, method, mesh);
+  check_boundary(scene, boundary, method, mesh, 0);
   check_jumps(scene, boundary, mesh);
   check_initial(initial, mesh);
   if (scene.name == "data") check_data(scene, method, mesh);

@@ -76,14 +76,14 @@ double largest_elsewhere(const Vector& v, LocalIndex points) {
 Vector force_alone(const MembraneSolution& solution, int alpha) {
   const std::vector<scene::FieldPtr> zero(solution.space.mesh().tags.size(), scene::constant(0));
   Vector F(solution.space.map());
-  solution.space.load(*solution.scene.tension[alpha], *solution.scene.force[alpha], {zero, zero}, 0, F);
+  solution.space.load(*solution.scene.tension[alpha], *solution.scene.force[alpha], {zero, zero}, solution.t, F);
   return F;
 }
 
 }  // namespace
 
 complementarity::KktData kkt_data(const MembraneSolution& solution) {
-  const auto& [scene, space, problem, body, x, u] = solution;
+  const auto& [scene, space, problem, body, x, u, t, rate] = solution;
   const MembraneOperator& membranes = problem.membranes();
   const Vector& D = space.pairing();
   complementarity::KktData data;
@@ -92,7 +92,7 @@ complementarity::KktData kkt_data(const MembraneSolution& solution) {
   data.gap = gap_l;
   data.claimed = Teuchos::rcp(new Vector(x.lambda, Teuchos::Copy));
   data.between_nodes =
-      scene.count == 1 ? space.penetration(u[0], scene.obstacle.get(), 0) : space.penetration(difference(u[0], u[1]), nullptr, 0);
+      scene.count == 1 ? space.penetration(u[0], scene.obstacle.get(), t) : space.penetration(difference(u[0], u[1]), nullptr, t);
 
   const Extent domain = extent_of(space.mesh());
   const auto points = static_cast<double>(std::max<std::size_t>(membranes.points()->getGlobalNumElements(), 1));
@@ -102,17 +102,21 @@ complementarity::KktData kkt_data(const MembraneSolution& solution) {
   double size = 0, softest = std::numeric_limits<double>::infinity();
   data.multiplier_scale = 0;
   for (int alpha = 0; alpha < scene.count; ++alpha) {
-    // lambda_1 = (a(u1, psi) - F1) / D,  lambda_2 = (F2 - a(u2, psi)) / D
-    Vector defect(space.map());
+    // lambda_1 = (a(u1, psi) - F1) / D,  lambda_2 = (F2 - a(u2, psi)) / D, with (d_t u, psi) beside a(u, psi) in time
+    Vector defect(space.map()), inertia(space.map());
     space.forces(*scene.tension[alpha], u[alpha], defect);
+    if (rate[alpha].extent(0) > 0) {
+      space.apply_mass(rate[alpha], inertia);
+      defect.update(1, inertia, 1);
+    }
     const double sign = alpha == 0 ? 1 : -1;
     defect.update(-sign, *body[alpha], sign);
     const auto multiplier = over_pairing(defect, D);
     data.equilibrium.push_back(multiplier);
     data.unbalanced = std::max(data.unbalanced, largest_elsewhere(defect, algebra::local_size(*membranes.points())) / mean_pairing);
     // what is large: the force per area that is there, …
-    data.multiplier_scale =
-        std::max({data.multiplier_scale, multiplier->normInf(), over_pairing(force_alone(solution, alpha), D)->normInf()});
+    data.multiplier_scale = std::max({data.multiplier_scale, multiplier->normInf(),
+                                      over_pairing(force_alone(solution, alpha), D)->normInf(), over_pairing(inertia, D)->normInf()});
     softest = std::min(softest, largest_tension(*scene.tension[alpha], space.mesh()));
     size = std::max(size, largest(u[alpha], space.mesh().comm));
   }

@@ -11,7 +11,9 @@ struct MembraneSolution {
   const MembraneProblem& problem;
   const Teuchos::RCP<algebra::Vector>* body;  ///< loads, before Dirichlet data are moved to the right
   Fields x;
-  method::Coefficients u[2];
+  method::Coefficients u[2] = {};
+  double t = 0;                       ///< of the data
+  method::Coefficients rate[2] = {};  ///< of a scene in time: (u_alpha - u_alpha^{n-1}) / tau, which the equations hold besides
 };
 
 /// What the verifier judges, from forces cell by cell (docs/methods/membranes.md, 6). Collective.

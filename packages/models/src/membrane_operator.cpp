@@ -64,6 +64,38 @@ MembraneOperator membrane_operator(const scene::MembraneScene& scene, const meth
   return membranes;
 }
 
+Inertia::Inertia(const method::Space& space, MembraneOperator& membranes)
+    : space_(space),
+      count_(membranes.shared() && membranes.factor[0] == membranes.factor[1] ? 1 : membranes.count),
+      factor_(membranes.factor),
+      stiffness_(membranes.matrix),
+      mass_(space.mass()) {
+  if (membranes.condensed) form_ = membranes.condensed->form;
+  for (int alpha = 0; alpha < count_; ++alpha) {
+    sum_[alpha] = Teuchos::rcp(new algebra::Matrix(space.graph()));
+    sum_[alpha]->fillComplete();
+  }
+  for (int alpha = 0; alpha < membranes.count; ++alpha) {
+    membranes.matrix[alpha] = sum_[alpha % count_];
+    membranes.factor[alpha] = 1;
+  }
+}
+
+void Inertia::set(double weight, MembraneOperator& membranes) {
+  const auto M = mass_->getLocalMatrixDevice().values;
+  for (int alpha = 0; alpha < count_; ++alpha) {
+    const double factor = factor_[alpha];
+    const auto S = stiffness_[alpha]->getLocalMatrixDevice().values, sum = sum_[alpha]->getLocalMatrixDevice().values;
+    Kokkos::parallel_for(
+        "thixis::models::inertia", Kokkos::RangePolicy<Vector::execution_space>(0, sum.extent(0)),
+        KOKKOS_LAMBDA(std::size_t k) { sum(k) = factor * S(k) + weight * M(k); });
+  }
+  if (!membranes.condensed) return;
+  for (int alpha = 0; alpha < membranes.count; ++alpha)
+    membranes.condensed->form[alpha] =
+        alpha < count_ ? space_.with_mass(form_[alpha], factor_[alpha], weight) : membranes.condensed->form[0];
+}
+
 Fields::Fields(const MembraneOperator& membranes) : u(membranes.map(), membranes.count), lambda(membranes.points()) {}
 
 Fields::Fields(const MembraneOperator& membranes, const Vector& X) : Fields(membranes) { split(X, *this); }

@@ -44,6 +44,23 @@ struct MembraneOperator {
 MembraneOperator membrane_operator(const scene::MembraneScene& scene, const method::Space& space, const method::MethodParams& method,
                                    const method::Coefficients* lift, const Teuchos::RCP<algebra::Vector>* body);
 
+/// The matrices of a scene in time, S_alpha + weight M with the mass M of the space; symbolic work is done once.
+class Inertia {
+ public:
+  /// Takes over the stiffness of `membranes`, whose matrices it replaces: by one where both membranes have the same stiffness. Collective.
+  Inertia(const method::Space& space, MembraneOperator& membranes);
+  /// New values in the matrices of `membranes`, and new cell forms.
+  void set(double weight, MembraneOperator& membranes);
+
+ private:
+  const method::Space& space_;
+  int count_;  ///< of different matrices
+  std::array<double, 2> factor_;
+  std::array<Teuchos::RCP<const algebra::Matrix>, 2> stiffness_;
+  std::array<std::shared_ptr<const method::CellForm>, 2> form_;
+  algebra::MatrixPtr mass_, sum_[2];
+};
+
 /// Where the fields of a node stand in X on a rank: u_1, …, u_m, and lambda behind them if it is a contact point, l < points.
 struct Layout {
   int membranes;

@@ -102,6 +102,13 @@ void MembraneProblem::linearize(const Vector&, const Vector& a, const Vector& b)
   system_->linearize(a, b);
 }
 
+void MembraneProblem::set_inertia(const method::Space& space, double weight) {
+  if (!inertia_) inertia_ = std::make_unique<Inertia>(space, membranes_);
+  inertia_->set(weight, membranes_);
+  smoother_.reset();
+  if (system_) system_->renew();
+}
+
 algebra::LinearReport MembraneProblem::solve(const Vector& R, Vector& dX, const algebra::LinearStop& stop) {
   return system_->solve(R, dX, stop);
 }

@@ -34,10 +34,13 @@ class MembraneProblem final : public complementarity::Problem {
   /// zone overshoot, and Newton-min takes that back by one layer of points a step.
   void make_complementary(Fields& x) const;
 
-  const MembraneOperator& membranes() const { return membranes_; }
-  GlobalIndex unknowns() const;  ///< all of X
-  GlobalIndex rows() const;      ///< of the Krylov system
-  GlobalIndex nonzeros() const;  ///< 0 before the first linearization
+  /// S_alpha <- the stiffness + weight M, M the mass of `space`, which must outlive this. Symbolic work is kept. Collective.
+  void set_inertia(const method::Space& space, double weight);
+
+  const MembraneOperator& membranes() const { return membranes_; }  ///< whose loads may be overwritten
+  GlobalIndex unknowns() const;                                     ///< all of X
+  GlobalIndex rows() const;                                         ///< of the Krylov system
+  GlobalIndex nonzeros() const;                                     ///< 0 before the first linearization
 
  private:
   MembraneOperator membranes_;
@@ -46,6 +49,7 @@ class MembraneProblem final : public complementarity::Problem {
   algebra::MapPtr map_;
   GlobalIndex interior_ = 0;                           ///< unknowns of each membrane that condensation eliminates
   mutable std::unique_ptr<ProjectedJacobi> smoother_;  ///< made where smoothing is asked for
+  std::unique_ptr<Inertia> inertia_;                   ///< of scenes in time
   std::unique_ptr<LinearizedSystem> system_;           ///< made at the first linearization: a run that only counts pays nothing for it
 };
 

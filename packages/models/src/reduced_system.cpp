@@ -20,18 +20,23 @@ auto output(MultiVector& v) { return v.getLocalViewDevice(Tpetra::Access::ReadWr
 /// What both reduced forms share: the contact set, the known part of dz, and the way back to (d1, d2, dlambda).
 class ReducedSystem : public LinearizedSystem {
  public:
-  ReducedSystem(const MembraneOperator& membranes)
+  explicit ReducedSystem(const MembraneOperator& membranes)
       : membranes_(membranes),
         diagonal_(membranes.map()),
         penalty_(membranes.map()),
         contact_(membranes.map()),
         a_(membranes.points()),
         b_(membranes.points()) {
-    Vector one(membranes.map());
-    for (int alpha = 0; alpha < membranes.count; ++alpha) {
-      membranes.matrix[alpha]->getLocalDiagCopy(one);
-      const double theta = membranes.theta[1 - alpha];
-      diagonal_.update(theta * theta * membranes.factor[alpha], one, 1);
+    ReducedSystem::renew();
+  }
+
+  void renew() override {
+    Vector one(membranes_.map());
+    diagonal_.putScalar(0);
+    for (int alpha = 0; alpha < membranes_.count; ++alpha) {
+      membranes_.matrix[alpha]->getLocalDiagCopy(one);
+      const double theta = membranes_.theta[1 - alpha];
+      diagonal_.update(theta * theta * membranes_.factor[alpha], one, 1);
     }
   }
 
@@ -150,6 +155,10 @@ class DecoupledSystem final : public ReducedSystem {
     if (membranes.count == 2) mean_ = make_constrained_solver(membranes, {1, {{{1, 0}}}}, params, coordinates);
   }
   GlobalIndex nonzeros() const override { return membranes_.count * gap_->nonzeros(); }
+  void renew() override {
+    ReducedSystem::renew();
+    mean_ready_ = false;
+  }
 
  private:
   static double kappa(const MembraneOperator& membranes) {

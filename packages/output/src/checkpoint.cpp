@@ -1,20 +1,17 @@
 #include "thixis/output/checkpoint.hpp"
 
-#include <fcntl.h>
 #include <fmt/core.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstdio>
 #include <filesystem>
 #include <limits>
 #include <numeric>
 
+#include "aside.hpp"
 #include "hash.hpp"
 #include "hdf5_file.hpp"
 #include "hdf5_reader.hpp"
-#include "text_file.hpp"
 #include "thixis/core/error.hpp"
 
 namespace thixis::output {
@@ -127,19 +124,6 @@ void write_content(const std::string& path, const Checkpoint& checkpoint, const 
   file.close();
 }
 
-/// Makes the new name last: without it a crash of the machine might bring the old file back.
-void sync_folder(const std::string& path) {
-  const auto folder = std::filesystem::absolute(path).parent_path().string();
-  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY);
-  if (descriptor < 0) return;
-  ::fsync(descriptor);
-  ::close(descriptor);
-}
-
-}  // namespace
-
-namespace {
-
 /// Throws FileError unless the file gives back what was written: only then may it take the place of an older checkpoint. Collective.
 void prove(const std::string& path, const Checkpoint& checkpoint, const core::Comm& comm) {
   const std::string complaint = fmt::format(
@@ -162,17 +146,9 @@ void prove(const std::string& path, const Checkpoint& checkpoint, const core::Co
 }  // namespace
 
 void write_checkpoint(const std::string& path, const Checkpoint& checkpoint, const core::Comm& comm) {
-  const std::string temporary = path + ".part";
-  try {
+  write_aside(path, comm, [&](const std::string& temporary) {
     write_content(temporary, checkpoint, comm);
     prove(temporary, checkpoint, comm);
-  } catch (const core::Error&) {  // thrown on all ranks
-    comm.on_root([&] { std::remove(temporary.c_str()); });
-    throw;
-  }
-  comm.on_root([&] {
-    if (std::rename(temporary.c_str(), path.c_str()) != 0) throw core::FileError(not_written(path, errno));
-    sync_folder(path);
   });
 }
 

@@ -6,8 +6,11 @@
 #include <cmath>
 #include <filesystem>
 
+#include "aside.hpp"
+#include "frames.hpp"
 #include "grid.hpp"
 #include "hdf5_file.hpp"
+#include "links.hpp"
 #include "slabs.hpp"
 #include "text_file.hpp"
 #include "thixis/core/error.hpp"
@@ -40,21 +43,56 @@ std::vector<GlobalIndex> global_triangles(const Grid& grid) {
 struct FieldWriter::Impl {
   std::string data_path, text_path;
   core::Comm comm;
+  Frames frames;
+  bool series;  ///< each grid in a file of its own
   bool open = true;
-  XdmfGrid last;
   int grids = 0, listed = 0;  ///< written so far, and how many of them the XDMF file lists
-  std::uint64_t mesh_fingerprint = 0;
-  std::string single, series;  ///< elements of the XDMF file
+  struct {
+    double time = 0;
+    int mesh = 0;
+    std::uint64_t fingerprint = 0;  ///< of the mesh
+  } last;
+  std::string single, collected;  ///< elements of the XDMF file, on the root
+  std::vector<int> meshes;        ///< numbers of those written so far
 
-  Impl(const std::string& folder, const core::Comm& on_comm)
+  Impl(const std::string& folder, const core::Comm& on_comm, bool is_series)
       : data_path((std::filesystem::path(folder) / data_name).string()),
         text_path((std::filesystem::path(folder) / "fields.xdmf").string()),
-        comm(on_comm) {
-    comm.on_root([&] {
-      std::error_code absent;
-      std::filesystem::remove(text_path, absent);
-    });
+        comm(on_comm),
+        frames(folder),
+        series(is_series) {}
+
+  void begin_file() const {
+    comm.on_root([&] { discard(text_path); });
     Hdf5File(data_path, Hdf5File::Mode::create, group_bytes, comm).close();
+    comm.on_root([&] { frames.remove(); });
+  }
+
+  void begin_series(int frames_kept) {
+    comm.on_root([&] {
+      frames.make_folder();
+      for (int n = 0; n < frames_kept; ++n) take_in(n);
+      // First the files that refer to frames: at any moment they name only those that are there.
+      write_list();
+      frames.remove_from(grids);
+    });
+    comm.broadcast(last);
+    comm.broadcast(meshes);
+    comm.broadcast(grids);
+    listed = grids;
+  }
+
+  /// The next frame of an interrupted run, on the root.
+  void take_in(int n) {
+    StoredFrame stored = frames.read(n, last.mesh);
+    if (stored.mesh == n) {
+      last.fingerprint = stored.fingerprint;
+      meshes.push_back(n);
+    }
+    last.mesh = stored.mesh;
+    last.time = stored.time;
+    collected += stored.xdmf;
+    grids = n + 1;
   }
 
   void begin(double time) const {
@@ -64,58 +102,107 @@ struct FieldWriter::Impl {
                         fmt::format("Fields must be written in the order of time; {} does not come after {}.", time, last.time));
   }
 
+  std::string file_of(int grid) const { return series ? Frames::name(grid) : data_name; }
+
   void write(const Grid& grid, const std::vector<FieldData>& fields, double time) {
     begin(time);
     check(grid, fields, comm);
     const std::uint64_t found = fingerprint(grid, comm);
-    const bool new_mesh = grids == 0 || found != mesh_fingerprint;
-    XdmfGrid next{grids, new_mesh ? grids : last.mesh, grid.global_points, grid.global_triangles, time, {}};
+    const bool new_mesh = grids == 0 || found != last.fingerprint;
+    const int mesh = new_mesh ? grids : last.mesh;
+    XdmfGrid next{grids, mesh, file_of(grids), file_of(mesh), grid.global_points, grid.global_triangles, time, {}};
     for (const FieldData& field : fields) next.attributes.push_back({field.name, field.centre, field.components == 1 ? 1 : 3});
+    const std::string element = xdmf_grid(next, true);
 
     const SlabExchange points(grid.point_id, grid.point_owner, grid.global_points, "point", comm);
     const SlabExchange triangles(grid.triangle_id, grid.triangle_owner, grid.global_triangles, "triangle", comm);
-    Hdf5File file(data_path, Hdf5File::Mode::extend, room_of(next, new_mesh), comm);
-    // Whatever stops the writing now leaves the file in an unknown state.
-    open = false;
-    if (new_mesh) write_mesh(file, fmt::format("/mesh_{}", next.mesh), grid, points, triangles);
-    const std::string group = fmt::format("/fields_{}", next.number);
-    file.add_group(group);
-    file.add_attribute(group, "time", time);
-    for (std::size_t k = 0; k < fields.size(); ++k) {
-      const SlabExchange& exchange = fields[k].centre == Centre::vertex ? points : triangles;
-      const int columns = next.attributes[k].columns;
-      file.add_array(group + "/" + fields[k].name, exchange.slab(), columns,
-                     exchange(fields[k].values.data(), fields[k].components, columns));
+    const auto add_to = [&](Hdf5File& file) {
+      if (new_mesh) write_mesh(file, fmt::format("/mesh_{}", mesh), grid, points, triangles, found);
+      write_values(file, next, fields, points, triangles);
+    };
+    const long long room = room_of(next, new_mesh);
+    if (series) {
+      write_aside(frames.path(grids), comm, [&](const std::string& path) {
+        Hdf5File file(path, Hdf5File::Mode::create, room + array_bytes + static_cast<long long>(element.size()), comm);
+        add_to(file);
+        file.add_text("/xdmf", element);
+        file.sync();
+        file.close();
+      });
+    } else {
+      Hdf5File file(data_path, Hdf5File::Mode::extend, room, comm);
+      // Whatever stops the writing now leaves the file in an unknown state.
+      open = false;
+      add_to(file);
+      file.close();
     }
-    file.close();
 
-    mesh_fingerprint = found;
-    last = std::move(next);
-    if (++grids == 1) single = xdmf_grid(last, data_name, false);
-    series += xdmf_grid(last, data_name, true);
+    last = {time, mesh, found};
+    if (new_mesh) meshes.push_back(mesh);
+    if (++grids == 1) single = xdmf_grid(next, false);
+    collected += element;
     // The text grows with each grid: without these pauses the work would grow with the square of their number.
     if (grids >= listed + std::max(1, listed / 64) || grids <= 128) list();
     open = true;
   }
 
   static void write_mesh(Hdf5File& file, const std::string& group, const Grid& grid, const SlabExchange& points,
-                         const SlabExchange& triangles) {
+                         const SlabExchange& triangles, std::uint64_t fingerprint) {
     file.add_group(group);
+    file.add_attribute(group, "fingerprint", static_cast<GlobalIndex>(fingerprint));
     const double* coordinates = grid.points.empty() ? nullptr : grid.points.front().data();
     file.add_array(group + "/points", points.slab(), 2, points(coordinates, 2, 2));
     file.add_array(group + "/triangles", triangles.slab(), 3, triangles(global_triangles(grid).data(), 3, 3));
+  }
+
+  static void write_values(Hdf5File& file, const XdmfGrid& next, const std::vector<FieldData>& fields, const SlabExchange& points,
+                           const SlabExchange& triangles) {
+    const std::string group = fmt::format("/fields_{}", next.number);
+    file.add_group(group);
+    file.add_attribute(group, "time", next.time);
+    file.add_attribute(group, "mesh", static_cast<GlobalIndex>(next.mesh));
+    for (std::size_t k = 0; k < fields.size(); ++k) {
+      const SlabExchange& exchange = fields[k].centre == Centre::vertex ? points : triangles;
+      const int columns = next.attributes[k].columns;
+      file.add_array(group + "/" + fields[k].name, exchange.slab(), columns,
+                     exchange(fields[k].values.data(), fields[k].components, columns));
+    }
   }
 
   void list() {
     comm.on_root([&] { write_list(); });
     listed = grids;
   }
-  void write_list() const { write_text(text_path, grids == 1 ? xdmf_single(single) : xdmf_series(series)); }
+  void write_list() const {
+    if (series) write_text(data_path, file_of_links(links()));
+    if (grids == 0)
+      discard(text_path);
+    else
+      write_text(text_path, grids == 1 && !series ? xdmf_single(single) : xdmf_series(collected));
+  }
+  std::vector<Link> links() const {
+    std::vector<Link> result;
+    for (const int n : meshes) result.push_back({fmt::format("/mesh_{}", n), Frames::name(n)});
+    for (int n = 0; n < grids; ++n) result.push_back({fmt::format("/fields_{}", n), Frames::name(n)});
+    return result;
+  }
 };
 
-FieldWriter::FieldWriter(const std::string& folder, const core::Comm& comm) : impl_(std::make_unique<Impl>(folder, comm)) {}
+FieldWriter::FieldWriter(const std::string& folder, const core::Comm& comm) : impl_(std::make_unique<Impl>(folder, comm, false)) {
+  impl_->begin_file();
+}
+
+FieldWriter FieldWriter::series(const std::string& folder, const core::Comm& comm, int frames_kept) {
+  auto impl = std::make_unique<Impl>(folder, comm, true);
+  impl->begin_series(frames_kept);
+  return FieldWriter(std::move(impl));
+}
+
+FieldWriter::FieldWriter(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+FieldWriter::FieldWriter(FieldWriter&&) noexcept = default;
 
 FieldWriter::~FieldWriter() {
+  if (!impl_) return;
   // Not collective: other ranks may be elsewhere when an error unwinds this one.
   try {
     if (impl_->comm.root() && impl_->listed < impl_->grids) impl_->write_list();
@@ -126,6 +213,8 @@ FieldWriter::~FieldWriter() {
 
 void FieldWriter::write(const mesh::Mesh& mesh, const std::vector<FieldData>& fields, double time) { write(grid_of(mesh), fields, time); }
 void FieldWriter::write(const Grid& grid, const std::vector<FieldData>& fields, double time) { impl_->write(grid, fields, time); }
+
+int FieldWriter::frames() const { return impl_->grids; }
 
 void FieldWriter::close() {
   impl_->open = false;

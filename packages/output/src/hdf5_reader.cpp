@@ -1,5 +1,7 @@
 #include "hdf5_reader.hpp"
 
+#include <array>
+
 #include "hdf5_handle.hpp"
 #include "thixis/core/error.hpp"
 
@@ -96,6 +98,16 @@ std::vector<std::string> Hdf5Reader::entries(const std::string& group) const {
   return names([&](hsize_t k, char* name, std::size_t size) {
     return H5Lget_name_by_idx(place, ".", H5_INDEX_NAME, H5_ITER_INC, k, name, size, H5P_DEFAULT);
   });
+}
+
+GlobalIndex Hdf5Reader::rows(const std::string& array) const {
+  const Quiet quiet;
+  const Handle place(H5Dopen2(file_, array.c_str(), H5P_DEFAULT), H5Dclose);
+  require(place.valid());
+  const Handle space(H5Dget_space(place), H5Sclose);
+  std::array<hsize_t, H5S_MAX_RANK> extents{};
+  require(H5Sget_simple_extent_dims(space, extents.data(), nullptr) > 0);
+  return static_cast<GlobalIndex>(extents[0]);
 }
 
 GlobalIndex Hdf5Reader::length(const std::string& vector) const {

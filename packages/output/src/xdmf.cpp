@@ -15,8 +15,8 @@ std::string document(const std::string& domain) {
 
 }  // namespace
 
-std::string xdmf_grid(const XdmfGrid& grid, const std::string& data, bool with_time) {
-  const std::string mesh = fmt::format("{}:/mesh_{}", data, grid.mesh);
+std::string xdmf_grid(const XdmfGrid& grid, bool with_time) {
+  const std::string mesh = fmt::format("{}:/mesh_{}", grid.mesh_file, grid.mesh);
   std::string text = fmt::format("<Grid Name=\"grid {}\" GridType=\"Uniform\">\n", grid.number);
   if (with_time) text += fmt::format("  <Time Value=\"{}\"/>\n", grid.time);
   text += fmt::format("  <Topology TopologyType=\"Triangle\" NumberOfElements=\"{}\">{}</Topology>\n", grid.triangles,
@@ -29,7 +29,7 @@ std::string xdmf_grid(const XdmfGrid& grid, const std::string& data, bool with_t
     const std::string dimensions = scalar ? fmt::format("{}", rows) : fmt::format("{} {}", rows, attribute.columns);
     text += fmt::format("  <Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"{}\">{}</Attribute>\n", attribute.name,
                         scalar ? "Scalar" : "Vector", cell ? "Cell" : "Node",
-                        data_item(dimensions, "Float", fmt::format("{}:/fields_{}/{}", data, grid.number, attribute.name)));
+                        data_item(dimensions, "Float", fmt::format("{}:/fields_{}/{}", grid.file, grid.number, attribute.name)));
   }
   return text + "</Grid>\n";
 }

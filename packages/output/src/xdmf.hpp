@@ -17,14 +17,14 @@ struct XdmfAttribute {
 /// One grid of the file: `/mesh_<mesh>` with the fields in `/fields_<number>`.
 struct XdmfGrid {
   int number = 0, mesh = 0;
+  std::string file, mesh_file;  ///< HDF5 files that hold the fields and the mesh, relative to the XDMF file
   GlobalIndex points = 0, triangles = 0;
   double time = 0;
   std::vector<XdmfAttribute> attributes;
 };
 
-/// A `<Grid>` element that refers to `data`, the name of the HDF5 file beside it. Only grids of a collection have their time: readers of
-/// single grids (meshio) do not know it.
-std::string xdmf_grid(const XdmfGrid& grid, const std::string& data, bool with_time);
+/// A `<Grid>` element. Only grids of a collection have their time: readers of single grids (meshio) do not know it.
+std::string xdmf_grid(const XdmfGrid& grid, bool with_time);
 /// The whole text: one grid, or the elements of several ones in a collection in time.
 std::string xdmf_single(const std::string& grid);
 std::string xdmf_series(const std::string& grids);

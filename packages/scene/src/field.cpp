@@ -26,7 +26,11 @@ class Constant final : public Field {
 class ExpressionField final : public Field {
  public:
   ExpressionField(std::string name, core::Expression expression, const std::vector<double>& centre)
-      : name_(std::move(name)), expression_(std::move(expression)), centre_{centre[0], centre[1]}, radial_(expression_.uses("r")), steady_(!expression_.uses("t")) {}
+      : name_(std::move(name)),
+        expression_(std::move(expression)),
+        centre_{centre[0], centre[1]},
+        radial_(expression_.uses("r")),
+        steady_(!expression_.uses("t")) {}
 
   void evaluate(const Points& points, double t, double* values) const override {
     std::array<double, block> time, radius;

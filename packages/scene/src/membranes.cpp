@@ -61,6 +61,10 @@ MembraneScene from_data(const SceneParams& params) {
     scene.exact->multiplier = read("data/lambda", data.lambda);
   }
   for (int alpha = 0; alpha < scene.count; ++alpha) read_membrane(read, params, membranes[alpha], alpha, scene);
+  if (data.initial) {
+    scene.initial[0] = read("data/initial/u1", data.initial->u1);
+    scene.initial[1] = read("data/initial/u2", data.initial->u2);
+  }
   return scene;
 }
 
@@ -74,8 +78,8 @@ MembraneScene from_case(const SceneParams& params) {
 }  // namespace
 
 MembraneScene membrane_scene(const SceneParams& params) {
-  if (params.model != Model::membranes && params.model != Model::obstacle)
-    throw core::InputError("scene/model: only stationary membranes are described by this scene; write 'membranes' or 'obstacle'.");
+  if (membranes_of(params.model).empty())
+    throw core::InputError("scene/model: this scene is about membranes; write 'membranes', 'obstacle' or 'parabolic membranes'.");
   std::string mistakes;
   examine(params, [&](const std::string& path, const std::string& sentence) {
     mistakes += (mistakes.empty() ? "scene" : "\nscene") + (path.empty() ? "" : "/" + path) + ": " + sentence;

@@ -103,6 +103,30 @@ void examine_exact(const std::vector<MembraneEntries>& membranes, const DataPara
   }
 }
 
+/// What only scenes in time have, and what they must have.
+void examine_time(const std::vector<MembraneEntries>& membranes, const SceneParams& params, const Report& report) {
+  const DataParams& data = *params.data;
+  if (params.model != Model::parabolic_membranes) {
+    if (data.initial) report("data/initial", "a stationary scene begins nowhere; drop it, or write model = 'parabolic membranes'.");
+    return;
+  }
+  if (data.initial)
+    for (const auto& [name, formula] : {std::pair("u1", &data.initial->u1), std::pair("u2", &data.initial->u2)}) {
+      const std::string path = std::string("data/initial/") + name;
+      if (formula->empty()) report(path, "one membrane alone does not begin; give both u1 and u2.");
+      examine_formula(path, *formula, data.constants, report);
+    }
+  else if (data.u1.empty() || data.u2.empty())
+    report("data/initial", "nothing says where the membranes are at time 0; give a sublist 'initial' with u1 and u2.");
+  for (const auto& m : membranes) try {
+      const core::Formula& mu = data.*m.mu;
+      if (!mu.empty() && core::Expression(mu.text, {"x", "y", "t", "r"}, data.constants).uses("t"))
+        report("data/mu" + m.index, "a tension must not depend on time; write it without t.");
+    } catch (const core::InputError&) {
+      // reported as an expression already
+    }
+}
+
 void examine_dirichlet(const std::vector<MembraneEntries>& membranes, const SceneParams& params, const Report& report) {
   const auto held = [&data = *params.data](const MembraneEntries& m) { return !(data.*m.g).empty() || !(data.*m.u).empty(); };
   // parts that are not named are held by the data: every membrane or none
@@ -139,6 +163,7 @@ void examine_data(const SceneParams& params, const Report& report) {
   if (!examine_names(params, report)) return;  // what seems to be missing may only have a wrong name
   examine_exact(membranes, data, report);
   examine_dirichlet(membranes, params, report);
+  examine_time(membranes, params, report);
   if (params.model == Model::obstacle && data.psi.empty()) report("data/psi", "nothing says where the obstacle is; give psi, its height.");
 }
 
@@ -195,6 +220,14 @@ void examine(const SceneParams& params, const Report& report) {
   if (!membranes_of(params.model).empty()) examine_data(params, report);
 }
 
+const core::Schema<InitialParams>& InitialParams::schema() {
+  static const auto s =
+      core::Schema<InitialParams>("initial", "Model parabolic membranes: where the membranes are at time 0; without it the exact solution.")
+          .parameter("u1", &InitialParams::u1, "Height of the upper membrane at time 0.")
+          .parameter("u2", &InitialParams::u2, "Height of the lower membrane at time 0, at most u1.");
+  return s;
+}
+
 const core::Schema<DataParams>& DataParams::schema() {
   static const auto s =
       core::Schema<DataParams>(
@@ -219,6 +252,7 @@ const core::Schema<DataParams>& DataParams::schema() {
           .parameter("u_x", &DataParams::u_x, "Model obstacle: derivative of u in x; without it differences of u.")
           .parameter("u_y", &DataParams::u_y, "Model obstacle: derivative of u in y; without it differences of u.")
           .parameter("lambda", &DataParams::lambda, "Exact multiplier, if known.")
+          .block("initial", &DataParams::initial, InitialParams::schema())
           .parameter("centre", &DataParams::centre, core::entries(2), "The point from which r is measured.")
           .values("constants", &DataParams::constants,
                   "Named numbers that the expressions of this block, of 'interface' and of 'boundary' may use.");

@@ -1,10 +1,12 @@
 """Reads the folders that the unit tests left (one per number of ranks) with meshio and compares them.
 
-Each folder holds `single/` (one grid of the disk) and `series/` (two grids in time). Fails with a sentence; exit code 77: meshio is missing.
+Each folder holds `single/` (one grid of the disk), `series/` (two grids in time in one file) and `frames/` (three of them in files of their
+own, the last one on a finer mesh). Fails with a sentence; exit code 77: meshio is missing.
 """
 import math
 import pathlib
 import sys
+import xml.etree.ElementTree as xml
 
 try:
     import h5py
@@ -55,6 +57,51 @@ def check_series(folder):
             require((point_data["u"] == time * points[:, 0]).all(), f"u of step {step} is not t x")
 
 
+def frame_values(n):
+    """The fields of frame n as the unit test wrote them: u on points, flow on triangles."""
+    strip = 4 if n < 2 else 7
+    u = numpy.arange(2 * (strip + 1)) + float(n)
+    flow = numpy.zeros((2 * strip, 3))
+    flow[:, :2] = numpy.add.outer(numpy.arange(2 * strip) + float(n), [0, 0.25])
+    return u, flow
+
+
+def check_frames(folder):
+    """All frames, by the links of fields.h5, by fields.xdmf, and those on the first mesh by meshio."""
+    place = folder / "frames"
+    with h5py.File(place / "fields.h5", "r") as file:
+        require(set(file) == {"mesh_0", "mesh_2", "fields_0", "fields_1", "fields_2"}, f"fields.h5 holds {set(file)}")
+        for n in range(3):
+            u, flow = frame_values(n)
+            group = file[f"fields_{n}"]
+            require(group.attrs["time"] == n / 3, f"time {group.attrs['time']} of frame {n}")
+            require((group["u"][()] == u).all() and (group["flow"][()] == flow).all(), f"frame {n} has other values behind the links")
+            mesh = file[f"mesh_{group.attrs['mesh']}"]
+            require(len(mesh["points"]) == len(u) and len(mesh["triangles"]) == len(flow), f"frame {n} is on another mesh")
+
+    def read(item):
+        name, array = item.text.split(":")
+        with h5py.File(place / name, "r") as file:
+            return file[array][()]
+
+    grids = xml.parse(place / "fields.xdmf").findall("./Domain/Grid[@CollectionType='Temporal']/Grid")
+    require([float(grid.find("Time").get("Value")) for grid in grids] == [0, 1 / 3, 2 / 3], "the times of fields.xdmf are others")
+    for n, grid in enumerate(grids):
+        u, flow = frame_values(n)
+        require(len(read(grid.find("Geometry/DataItem"))) == len(u), f"frame {n} has other points")
+        require(len(read(grid.find("Topology/DataItem"))) == len(flow), f"frame {n} has other triangles")
+        for name, values in ("u", u), ("flow", flow):
+            require((read(grid.find(f"Attribute[@Name='{name}']/DataItem")) == values).all(), f"{name} of frame {n} differs")
+
+    with meshio.xdmf.TimeSeriesReader(place / "fields.xdmf") as reader:
+        points, cells = reader.read_points_cells()
+        for n in range(2):
+            time, point_data, cell_data = reader.read_data(n)
+            u, flow = frame_values(n)
+            require(time == n / 3 and len(points) == len(u), f"meshio finds frame {n} at {time} with {len(points)} points")
+            require((point_data["u"] == u).all() and (cell_data["flow"][0] == flow).all(), f"meshio reads other values in frame {n}")
+
+
 def arrays(folder):
     found = {}
     for path in sorted(folder.glob("*/fields.h5")):
@@ -67,6 +114,7 @@ def main(folders):
     for folder in folders:
         check_single(folder)
         check_series(folder)
+        check_frames(folder)
     first = arrays(folders[0])
     require(len(first) == 9, f"{len(first)} arrays: {sorted(first)}")
     for folder in folders[1:]:
@@ -74,8 +122,10 @@ def main(folders):
         require(first.keys() == other.keys(), f"{folder} holds other arrays")
         for name, values in first.items():
             require(values.dtype == other[name].dtype and (values == other[name]).all(), f"{folder}: {name} depends on the number of ranks")
-        for path in ("single/fields.xdmf", "series/fields.xdmf"):
-            require((folders[0] / path).read_text() == (folder / path).read_text(), f"{folder}: {path} depends on the number of ranks")
+        same = ["single/fields.xdmf", "series/fields.xdmf"] + [str(path.relative_to(folder)) for path in sorted(folder.rglob("frames/**/*.*"))]
+        require(len(same) == 7, f"{folder} holds other frames: {same}")
+        for path in same:
+            require((folders[0] / path).read_bytes() == (folder / path).read_bytes(), f"{folder}: {path} depends on the number of ranks")
     print(f"{len(first)} arrays agree in {len(folders)} folders")
 
 

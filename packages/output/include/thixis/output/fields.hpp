@@ -39,34 +39,48 @@ struct Grid {
   std::vector<int> triangle_owner;  ///< ranks
 };
 
-/// Writes `fields.h5` and `fields.xdmf` (XDMF 3, relative paths): one file for all ranks, collectively, in the order of global ids, so
-/// that the arrays do not depend on the number of ranks. All members are collective and throw FileError on all ranks; fields or
-/// grids that contradict themselves are an Error with code `internal`. After an Error and on a full disk the file is as it was before the
-/// call; after another failure of the disk nothing more can be written to it.
+/// Writes `fields.h5` and `fields.xdmf` (XDMF 3, relative paths), collectively, in the order of global ids, so that the arrays do not
+/// depend on the number of ranks. All members are collective and throw FileError on all ranks; fields or grids that contradict themselves
+/// are an Error with code `internal`.
 ///
-/// One grid makes a plain file; several make a collection in time. Between two calls both files are closed, so that a running series can be
-/// looked at and a killed one leaves what it has written. (The XDMF text lists all grids so far: beyond 128 of them it is renewed
-/// once per 64th of their number, and by close().)
+/// HDF5: `/mesh_<m>/{points [points][2], triangles [triangles][3]}`, `/fields_<n>/<name> [entities]` or `[entities][3]`; attributes are
+/// `time` and `mesh` (the m) of `/fields_<n>` and `fingerprint` of `/mesh_<m>`.
 ///
-/// HDF5: `/mesh_<m>/{points [points][2], triangles [triangles][3]}`, `/fields_<n>/<name> [entities]` or `[entities][3]`, and the attribute
-/// `time` of `/fields_<n>`.
+/// FieldWriter(folder, comm), for a run that shows its end: fields.h5 holds all of it. One grid makes a plain file, several a
+/// collection in time. Between two calls both files are closed, so that they can be looked at. After an Error and on a full disk the file
+/// is as it was before the call; after another failure of the disk nothing more can be written to it.
+///
+/// series(folder, comm, n), for a run in time, which may be killed at any moment and go on: grid n, with its mesh if that is a new one, is
+/// written aside, brought to the disk and renamed to `fields/<n, six digits>.h5`. fields.h5 consists of links to what these files hold, so
+/// that it shows the same entries; fields.xdmf, always a collection in time, refers to them directly. Equal calls make equal files, byte by
+/// byte, whether or not the run was interrupted between them. After an Error the frames are as they were before the call. A checkpoint that
+/// counts a frame is to be written behind it.
+///
+/// (The lists of all grids so far, fields.xdmf and the links, are renewed, beyond 128 grids, once per 64th of their number, and by close().)
 class FieldWriter {
  public:
-  /// Creates an empty fields.h5 in an existing folder; an old fields.xdmf is removed.
+  /// Creates an empty fields.h5 in an existing folder; an old fields.xdmf and old frames are removed.
   FieldWriter(const std::string& folder, const core::Comm& comm);
+  /// The first `frames_kept` frames that an interrupted run left in the folder stay, later ones are removed: they will be written again, on
+  /// any number of ranks. None begins anew. Throws FileError if one that is to stay is missing or damaged (the values of its arrays are not
+  /// read); then nothing is changed.
+  static FieldWriter series(const std::string& folder, const core::Comm& comm, int frames_kept = 0);
   ~FieldWriter();
-  FieldWriter(const FieldWriter&) = delete;
-  FieldWriter& operator=(const FieldWriter&) = delete;
+  FieldWriter(FieldWriter&&) noexcept;
+  FieldWriter& operator=(FieldWriter&&) = delete;
 
   /// One grid with its fields; `time` grows from call to call. The mesh is written anew only when its points, triangles or
   /// numbers differ from those of the previous call.
   void write(const mesh::Mesh& mesh, const std::vector<FieldData>& fields, double time);
   void write(const Grid& grid, const std::vector<FieldData>& fields, double time);
+  /// Grids so far, on all ranks; those that were kept count. Not collective.
+  int frames() const;
   /// Finishes both files; nothing can be written any more.
   void close();
 
  private:
   struct Impl;
+  explicit FieldWriter(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;
 };
 

@@ -8,6 +8,8 @@
 
 namespace thixis::output {
 
+class Table;
+
 /// A row of the history: of a linear check, a Newton step, a mesh level or a time step. What was not computed stays empty.
 struct HistoryRow {
   std::optional<int> level, time_step;
@@ -29,7 +31,8 @@ class History {
   /// Overwrites the file. A history that is not enabled writes nothing and touches no file. Collective; throws FileError on all ranks.
   History(const std::string& path, const core::Comm& comm, bool enabled = true);
   /// Goes on with the file of an interrupted run: the header and the first `rows` rows stay (fewer, if there are fewer; a row that was cut
-  /// off is not one), later ones, which the run will write again, are removed. A file that is absent or no history begins anew.
+  /// off when the program was killed is not one), later ones, which the run will write again, are removed. A file that is absent or no
+  /// history begins anew.
   static History go_on(const std::string& path, GlobalIndex rows, const core::Comm& comm, bool enabled = true);
   ~History();
   History(History&&) noexcept;
@@ -42,8 +45,7 @@ class History {
 
  private:
   History(const std::string& path, GlobalIndex rows_kept, bool enabled, const core::Comm& comm);
-  struct Impl;
-  std::unique_ptr<Impl> impl_;  ///< none if not enabled
+  std::unique_ptr<Table> table_;  ///< none if not enabled
 };
 
 }  // namespace thixis::output

@@ -19,6 +19,12 @@ enum class BoundaryKind {
   neumann     ///< mu_alpha du_alpha/dn = t_alpha, n outward
 };
 
+/// Sublist `initial` of `data`: the membranes of a scene in time at t = 0.
+struct InitialParams {
+  core::Formula u1, u2;
+  static const core::Schema<InitialParams>& schema();
+};
+
 /// Sublist `data`: the functions of a membrane problem. Each is a number or an expression of x, y, t, r, pi and the constants.
 /// Those of the one membrane over an obstacle have no index.
 struct DataParams {
@@ -28,6 +34,7 @@ struct DataParams {
   core::Formula psi;                               ///< the obstacle
   core::Formula u, u1, u2, lambda;                 ///< the exact solution, if known
   core::Formula u_x, u_y, u1_x, u1_y, u2_x, u2_y;  ///< its gradient; not given: differences
+  std::optional<InitialParams> initial;            ///< in time; not given: the exact solution at t = 0
   std::vector<double> centre = {0, 0};             ///< r is the distance to it
   std::map<std::string, double> constants;
   static const core::Schema<DataParams>& schema();
@@ -74,7 +81,8 @@ struct ExactMembranes {
 ///
 ///     -div(mu grad u) - lambda = f,   u - psi >= 0,  lambda >= 0,  (u - psi) lambda = 0;
 ///
-/// then only index 0 of the arrays is used, and the others are null.
+/// then only index 0 of the arrays is used, and the others are null. Or two membranes in time (docs/methods/parabolic.md), with d_t u_alpha
+/// beside the divergence: all functions but the tensions may depend on t.
 struct MembraneScene {
   std::string name;      ///< of the case, or "data"
   std::string sentence;  ///< what it shows
@@ -86,7 +94,8 @@ struct MembraneScene {
   BoundaryCondition default_boundary;                 ///< of the tags that `boundary` does not name; its values may be null
   std::optional<ExactMembranes> exact;
   FieldPtr interface_level_set;  ///< zero on the curves across which data jump; may be null
-  FieldPtr initial[3];           ///< u_1, u_2, lambda from which a cold start begins (u_1 = u over an obstacle); null: zero
+  FieldPtr initial[3];           ///< u_1, u_2, lambda from which a cold start begins (u_1 = u over an obstacle); null: zero. In time:
+                                 ///< u_1, u_2 at t = 0; null: the exact solution
 };
 
 /// A catalogued case (block `scene`, parameter `case`).
@@ -98,7 +107,7 @@ struct Case {
 const std::vector<Case>& cases();
 
 /// The problem that the block describes. Throws InputError with one line "scene/<path>: <sentence>" per mistake (those of the schema's
-/// check), and for models other than membranes and obstacle.
+/// check), and for models other than membranes, obstacle and parabolic membranes.
 MembraneScene membrane_scene(const SceneParams& params);
 
 }  // namespace thixis::scene

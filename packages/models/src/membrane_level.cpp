@@ -1,0 +1,216 @@
+#include "membrane_level.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "thixis/core/error.hpp"
+
+namespace thixis::models {
+namespace {
+
+using algebra::Vector;
+using method::Coefficients;
+
+void check_size(const output::StoredCheckpoint& stored, const std::string& block, GlobalIndex unknowns) {
+  const GlobalIndex saved = stored.size(block);
+  if (saved == unknowns) return;
+  throw core::InputError(
+      fmt::format("The checkpoint '{}' belongs to another model, mesh or method: it holds {}, the deck asks for {}; leave scene/model, "
+                  "mesh, method and the kinds of the boundary as they were.",
+                  stored.path(), saved < 0 ? fmt::format("no '{}'", block) : fmt::format("{} values of '{}'", saved, block), unknowns));
+}
+
+/// Brings coefficients together where those of the upper membrane are below those of the lower one, the first ones: at the mean with the
+/// weights share and 1 - share.
+void keep_in_order(const Coefficients& upper, const Coefficients& lower, const std::vector<double>& share) {
+  const Coefficients theta("thixis::models::share", share.size());
+  const auto host = Kokkos::create_mirror_view(theta);
+  std::copy(share.begin(), share.end(), host.data());
+  Kokkos::deep_copy(theta, host);
+  Kokkos::parallel_for(
+      "thixis::models::keep_in_order", Kokkos::RangePolicy<>(0, share.size()), KOKKOS_LAMBDA(std::size_t i) {
+        if (upper(i) < lower(i)) upper(i) = lower(i) = theta(i) * upper(i) + (1 - theta(i)) * lower(i);
+      });
+}
+
+bool steady(const std::vector<scene::FieldPtr>& fields) {
+  return std::all_of(fields.begin(), fields.end(), [](const scene::FieldPtr& field) { return !field || field->steady(); });
+}
+
+}  // namespace
+
+MembraneLevel::MembraneLevel(const scene::MembraneScene& scene, const method::SpaceFactory& make_space, const method::MethodParams& method,
+                             const algebra::LinearParams& linear, const mesh::Mesh& mesh)
+    : scene_(scene), method_(method), boundary_(boundary_of(scene, mesh)) {
+  space_ = make_space(mesh, {boundary_.dirichlet, scene.interface_level_set, method});
+  steady_interface_ = steady({scene.interface_level_set});
+  for (int alpha = 0; alpha < scene.count; ++alpha) {
+    const auto& [dirichlet, neumann] = boundary_.values[alpha];
+    steady_boundary_ = steady_boundary_ && steady(dirichlet);
+    steady_loads_ = steady_loads_ && steady(dirichlet) && steady(neumann) && steady({scene.force[alpha]});
+    body_[alpha] = Teuchos::rcp(new Vector(space_->map()));
+  }
+  steady_loads_ = steady_loads_ && steady_interface_;
+  set_lifts();
+  nothing_ = Coefficients("thixis::models::nothing", lift_[0].extent(0));
+  set_loads();
+  problem_ = std::make_unique<MembraneProblem>(membrane_operator(scene, *space_, method, lift_, body_), linear, space_->coordinates());
+  if (scene.count == 1) obstacle_ = space_->complete(*problem_->membranes().obstacle, lift_of_obstacle());
+}
+
+void MembraneLevel::set_lifts() {
+  for (int alpha = 0; alpha < scene_.count; ++alpha) lift_[alpha] = space_->lift(boundary_.values[alpha], time_);
+  // Bernstein coefficients of ordered data need not be ordered
+  if (method_.nodes == method::Nodes::bernstein && scene_.count == 2) keep_in_order(lift_[0], lift_[1], share_of_upper_tension());
+}
+
+void MembraneLevel::set_loads() {
+  for (int alpha = 0; alpha < scene_.count; ++alpha)
+    space_->load(*scene_.tension[alpha], *scene_.force[alpha], boundary_.values[alpha], time_, *body_[alpha]);
+}
+
+void MembraneLevel::move_to(double t) {
+  if (t == time_) return;
+  time_ = t;
+  if (!steady_interface_) space_->move_interface(t);
+  if (!steady_boundary_) {
+    check_boundary(scene_, boundary_, method_, space_->mesh(), t);
+    set_lifts();
+  }
+  if (!steady_loads_) set_loads();
+}
+
+Teuchos::RCP<Vector> MembraneLevel::joined(const Fields& x) const {
+  auto X = Teuchos::rcp(new Vector(problem_->map()));
+  join(x, *X);
+  return X;
+}
+
+Fields MembraneLevel::from_coarse(const MembraneLevel& coarse, const Vector& coarse_X) const {
+  Fields coarse_x = coarse.fields(coarse_X), x = fields();
+  coarse.problem_->settle(coarse_x);
+  for (int alpha = 0; alpha < scene_.count; ++alpha) {
+    Coefficients u = coarse.membrane(coarse_x, alpha);
+    if (scene_.count == 1) u = difference(u, coarse.obstacle_);  // the gap: where it is closed it stays so
+    space_->prolongate(*coarse.space_, u, *x.u.getVectorNonConst(alpha));
+  }
+  if (scene_.count == 1) x.u.update(1, *problem_->membranes().obstacle, 1);
+  space_->prolongate_multiplier(*coarse.space_, coarse_x.lambda, x.lambda);
+  return x;
+}
+
+std::vector<output::CheckpointBlock> MembraneLevel::save(const Vector& X) const {
+  const Fields x = fields(X);
+  std::vector<output::CheckpointBlock> blocks;
+  const auto ids = space_->unknown_ids();
+  const auto add = [&](const std::string& name, const Vector& v) {
+    const auto values = algebra::host_view(v);
+    const auto count = static_cast<std::ptrdiff_t>(values.extent(0));
+    blocks.push_back({name, {ids.begin(), ids.begin() + count}, {values.data(), values.data() + count}});
+  };
+  for (int alpha = 0; alpha < scene_.count; ++alpha) add(displacement(alpha), *x.u.getVector(alpha));
+  add("lambda", x.lambda);
+  return blocks;
+}
+
+Teuchos::RCP<Vector> MembraneLevel::restore(const output::StoredCheckpoint& stored) const {
+  Fields x = fields();
+  const auto ids = space_->unknown_ids();
+  const auto fetch = [&](const std::string& name, Vector& v) {
+    check_size(stored, name, static_cast<GlobalIndex>(v.getGlobalLength()));
+    const auto values = stored.fetch(name, {ids.begin(), ids.begin() + static_cast<std::ptrdiff_t>(v.getLocalLength())});
+    const auto out = algebra::host_overwrite(v);
+    std::copy(values.begin(), values.end(), out.data());
+  };
+  for (int alpha = 0; alpha < scene_.count; ++alpha) fetch(displacement(alpha), *x.u.getVectorNonConst(alpha));
+  fetch("lambda", x.lambda);
+  return joined(x);
+}
+
+std::vector<output::FieldData> MembraneLevel::shown(const Vector& X, const complementarity::ActiveSet& active,
+                                                    const std::vector<std::string>& names) const {
+  const Fields x = fields(X);
+  std::vector<output::FieldData> shown;
+  const auto add = [&](const std::string& name, auto values) {
+    if (names.empty() || std::find(names.begin(), names.end(), name) != names.end())
+      shown.push_back({name, output::Centre::vertex, values()});
+  };
+  for (int alpha = 0; alpha < scene_.count; ++alpha) add(displacement(alpha), [&] { return space_->shown(membrane(x, alpha)); });
+  add("lambda", [&] { return space_->shown(space_->multiplier(x.lambda)); });
+  add("gap", [&] {
+    auto gap = space_->shown(membrane(x, 0));
+    const auto below = scene_.count == 2 ? space_->shown(membrane(x, 1)) : at_points(*scene_.obstacle);
+    for (std::size_t i = 0; i < gap.size(); ++i) gap[i] -= below[i];
+    return gap;
+  });
+  add("active", [&] {
+    Vector flag(space_->map());
+    {
+      const auto out = algebra::host_view(flag);
+      for (std::size_t l = 0; l < active.flags().size(); ++l) out(l) = active.flags()[l];
+    }
+    return space_->coefficients_shown(space_->complete(flag, nothing_));
+  });
+  return shown;
+}
+
+equilibration::ContactProblem MembraneLevel::contact_problem() const {
+  equilibration::ContactProblem contact;
+  contact.count = scene_.count;
+  contact.obstacle = scene_.obstacle;
+  contact.interface = scene_.interface_level_set;
+  for (int alpha = 0; alpha < scene_.count; ++alpha) {
+    contact.tension[alpha] = scene_.tension[alpha];
+    contact.force[alpha] = scene_.force[alpha];
+    contact.boundary[alpha] = boundary_.values[alpha];
+  }
+  return contact;
+}
+
+Coefficients MembraneLevel::lift_of_obstacle() const {
+  method::BoundaryValues psi = boundary_.values[0];
+  for (auto& value : psi.dirichlet)
+    if (value) value = scene_.obstacle;
+  return space_->lift(psi, 0);
+}
+
+/// Values at the points of the grid.
+std::vector<double> MembraneLevel::at_points(const scene::Field& field) const {
+  const auto points = space_->display().points;
+  std::vector<double> x, y, values(points.size());
+  for (const auto& point : points) {
+    x.push_back(point[0]);
+    y.push_back(point[1]);
+  }
+  space_->mesh().comm.together([&] { field.evaluate({points.size(), x.data(), y.data()}, 0, values.data()); });
+  return values;
+}
+
+/// mu_1 / (mu_1 + mu_2) at the points of the grid: the stiffer membrane gives way less.
+std::vector<double> MembraneLevel::share_of_upper_tension() const {
+  auto share = at_points(*scene_.tension[0]);
+  const auto lower = at_points(*scene_.tension[1]);
+  for (std::size_t i = 0; i < share.size(); ++i) {
+    const double both = share[i] + lower[i];
+    share[i] = both > 0 ? std::clamp(share[i] / both, 0.0, 1.0) : 0.5;
+  }
+  return share;
+}
+
+MembraneIterate::MembraneIterate(const MembraneLevel& of, const Vector& X) : x(of.fields(X)), r(of.fields()), gap_l(of.problem().points()) {
+  Vector R(of.problem().map());
+  of.problem().equations(X, R);
+  split(R, r);
+  r.u.scale(-1);
+  gap(of.problem().membranes(), x.u, gap_l);
+  iterate.lambda = &x.lambda;
+  iterate.gap = &gap_l;
+  for (int alpha = 0; alpha < of.count(); ++alpha) {
+    iterate.u[alpha] = of.membrane(x, alpha);
+    residual[alpha] = r.u.getVector(alpha);
+    iterate.residual[alpha] = residual[alpha].get();
+  }
+}
+
+}  // namespace thixis::models

@@ -1,0 +1,289 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_set>
+
+#include "membrane_kkt.hpp"
+#include "membrane_level.hpp"
+#include "thixis/core/error.hpp"
+#include "thixis/core/timer.hpp"
+#include "thixis/mesh/adapt.hpp"
+#include "thixis/models/parabolic_membranes.hpp"
+
+namespace thixis::models {
+namespace {
+
+using algebra::Vector;
+using method::Coefficients;
+
+constexpr double gauss_point = 0.21132486540518711775;  ///< (1 - 1/sqrt 3)/2: the first of two on [0, 1], both of weight 1/2
+
+/// a u + b v.
+Coefficients combination(double a, const Coefficients& u, double b, const Coefficients& v) {
+  const Coefficients w("thixis::models::combination", u.extent(0));
+  Kokkos::parallel_for(
+      "thixis::models::combination", Kokkos::RangePolicy<>(0, u.extent_int(0)), KOKKOS_LAMBDA(int i) { w(i) = a * u(i) + b * v(i); });
+  return w;
+}
+
+/// Both membranes as functions at one time.
+struct Pair {
+  Coefficients u[2];
+};
+
+class ParabolicEvolution final : public Evolution {
+ public:
+  ParabolicEvolution(const scene::MembraneScene& scene, const method::SpaceFactory& make_space, const method::MethodParams& method,
+                     const algebra::LinearParams& linear, mesh::Hierarchy hierarchy)
+      : scene_(scene), make_space_(make_space), method_(method), linear_(linear), hierarchy_(std::move(hierarchy)) {
+    on_mesh_ = make_level();
+  }
+
+  const core::Comm& comm() const override { return space().mesh().comm; }
+  GlobalIndex cells() const override { return space().mesh().global_cells; }
+  Sizes sizes() const override {
+    const MembraneProblem& problem = on_mesh_->problem();
+    return {problem.unknowns(), problem.rows(), problem.nonzeros()};
+  }
+
+  Teuchos::RCP<Vector> initial() override {
+    on_mesh_->move_to(0);
+    Fields x = on_mesh_->fields();
+    for (int alpha = 0; alpha < 2; ++alpha) space().interpolate(*scene_.initial[alpha], 0, *x.u.getVectorNonConst(alpha));
+    return on_mesh_->joined(x);
+  }
+
+  /// F_alpha <- (f_alpha, psi) + (u_alpha^{n-1}, psi)/tau - a_alpha(g, psi) - (g, psi)/tau with the lift g of the boundary values.
+  void begin(const TimeStep& step, const Vector& before) override {
+    const core::Region region("assembly");
+    on_mesh_->move_to(step.begin);
+    before_ = at(before);
+    on_mesh_->move_to(step.end);
+    MembraneProblem& problem = on_mesh_->problem();
+    if (1 / step.length() != weight_) {
+      weight_ = 1 / step.length();
+      problem.set_inertia(space(), weight_);
+    }
+    Vector part(space().map());
+    for (int alpha = 0; alpha < 2; ++alpha) {
+      Vector& F = *problem.membranes().load[alpha];
+      space().apply_mass(combination(weight_, before_.u[alpha], -weight_, on_mesh_->lift(alpha)), part);
+      F.update(1, *on_mesh_->body()[alpha], 1, part, 0);
+      space().forces(*scene_.tension[alpha], on_mesh_->lift(alpha), part);
+      F.update(-1, part, 1);
+    }
+    step_ = step;
+    begun_ = open_ = true;
+  }
+
+  complementarity::Problem& problem() override { return on_mesh_->problem(); }
+
+  complementarity::Estimate estimate(const Vector&) override {
+    throw core::InputError("stopping/estimate: this version has no error bound for parabolic membranes; write false, or leave it out.");
+  }
+  CellEstimates cell_estimates() const override { return {}; }
+
+  void accept(const Vector& X) override {
+    if (scene_.exact) squared_error_ += step_error(at(X));
+    open_ = false;
+  }
+
+  std::optional<double> energy_error() const override {
+    if (!scene_.exact) return std::nullopt;
+    return std::sqrt(squared_error_);
+  }
+
+  /// At X^0, and where a run is taken up again, the equations say nothing: the multiplier is judged by its sign alone.
+  complementarity::KktData kkt_data(const Vector& X) const override {
+    MembraneSolution solution{scene_, space(), on_mesh_->problem(), on_mesh_->body(), on_mesh_->fields(X)};
+    solution.t = on_mesh_->time();
+    for (int alpha = 0; alpha < 2; ++alpha) {
+      solution.u[alpha] = on_mesh_->membrane(solution.x, alpha);
+      if (begun_) solution.rate[alpha] = combination(weight_, solution.u[alpha], -weight_, before_.u[alpha]);
+    }
+    auto data = models::kkt_data(solution);
+    if (!begun_) {
+      data.equilibrium = {data.claimed};
+      data.unbalanced = 0;
+    }
+    return data;
+  }
+
+  std::vector<std::string> series_names() const override {
+    std::vector<std::string> names = {"contact_area", "contact_force", "largest_gap"};
+    if (scene_.exact) names.insert(names.end(), {"energy_error", "l2_error_u1", "l2_error_u2"});
+    return names;
+  }
+
+  /// (sum_l (psi_l, 1) over the points in contact, sum_l <lambda_h, psi_l>, max_l gap_l; of the errors at this time the energy norm and the
+  /// L² norms).
+  std::vector<double> series(const Vector& X) const override {
+    const Fields x = on_mesh_->fields(X);
+    const MembraneProblem& problem = on_mesh_->problem();
+    Vector opening(problem.points()), scale(problem.points());
+    gap(problem.membranes(), x.u, opening);
+    problem.scaling(scale);
+    double area = 0, force = 0, largest = 0;
+    {
+      const auto read = [](const Vector& v) { return algebra::host_view(v); };
+      const auto weight = read(areas()), K = read(opening), s = read(scale), lambda = read(x.lambda), D = read(space().pairing());
+      for (std::size_t l = 0; l < K.extent(0); ++l) {
+        if (s(l) * lambda(l) > K(l)) area += weight(l);
+        force += D(l) * lambda(l);
+        largest = std::max(largest, K(l));
+      }
+    }
+    std::vector<double> values = {comm().sum(area), comm().sum(force), comm().max(largest)};
+    if (scene_.exact) {
+      const Pair now = at(X);
+      const double t = on_mesh_->time();
+      values.push_back(std::sqrt(squared_energy_error(now, t)));
+      for (int alpha = 0; alpha < 2; ++alpha) values.push_back(std::sqrt(space().l2_error(now.u[alpha], *scene_.exact->u[alpha], t)));
+    }
+    return values;
+  }
+
+  output::Grid grid() const override { return space().display(); }
+  std::vector<output::FieldData> fields(const Vector& X, const complementarity::ActiveSet& active,
+                                        const std::vector<std::string>& names) const override {
+    return on_mesh_->shown(X, active, names);
+  }
+
+  EvolutionState save(const Vector& X) const override {
+    return {on_mesh_->save(X), {{"data_time", on_mesh_->time()}, {"squared_energy_error", squared_error_}}};
+  }
+  Teuchos::RCP<Vector> restore(const output::StoredCheckpoint& stored) override {
+    auto X = on_mesh_->restore(stored);
+    on_mesh_->move_to(stored.attribute("data_time"));
+    squared_error_ = stored.attribute("squared_energy_error");
+    begun_ = open_ = false;
+    return X;
+  }
+
+  const mesh::Hierarchy* hierarchy() const override { return &hierarchy_; }
+
+  /// During a step begun X is what it began with, else the X at its end. The functions in the cells are the same on the finer mesh, but for
+  /// boundary values: those are the interpolant of the data there.
+  Teuchos::RCP<Vector> refine(const std::vector<GlobalIndex>& marked, const Vector& X) override {
+    const double t = open_ ? step_.begin : on_mesh_->time();
+    const std::unordered_set<GlobalIndex> ids(marked.begin(), marked.end());
+    const mesh::Mesh& coarse = hierarchy_.finest();
+    std::vector<LocalIndex> cells;
+    for (LocalIndex K = 0; K < coarse.owned_cells; ++K)
+      if (ids.count(coarse.cell_id[K]) > 0) cells.push_back(K);
+    on_mesh_->move_to(t);
+    mesh::adapt(hierarchy_, cells);
+    const auto on_coarse = std::move(on_mesh_);
+    on_mesh_ = make_level();
+    on_mesh_->move_to(t);
+    areas_ = Teuchos::null;
+    weight_ = 0;
+    begun_ = open_ = false;
+    return on_mesh_->joined(on_mesh_->from_coarse(*on_coarse, X));
+  }
+
+ private:
+  const method::Space& space() const { return on_mesh_->space(); }
+
+  std::unique_ptr<MembraneLevel> make_level() const {
+    const core::Region region("assembly");
+    return std::make_unique<MembraneLevel>(scene_, make_space_, method_, linear_, hierarchy_.finest());
+  }
+
+  /// With the boundary values of the time of the data.
+  Pair at(const Vector& X) const {
+    const Fields x = on_mesh_->fields(X);
+    return {{on_mesh_->membrane(x, 0), on_mesh_->membrane(x, 1)}};
+  }
+
+  double squared_energy_error(const Pair& now, double t) const {
+    double sum = 0;
+    for (int alpha = 0; alpha < 2; ++alpha)
+      sum += space().energy_error(*scene_.tension[alpha], now.u[alpha], scene_.exact->gradient[alpha], t);
+    return sum;
+  }
+
+  /// ∫ |||u - u_htau|||² over the step, u_htau affine in time: two Gauss points.
+  double step_error(const Pair& end) const {
+    double sum = 0;
+    for (const double s : {gauss_point, 1 - gauss_point}) {
+      Pair between;
+      for (int alpha = 0; alpha < 2; ++alpha) between.u[alpha] = combination(1 - s, before_.u[alpha], s, end.u[alpha]);
+      sum += squared_energy_error(between, step_.begin + s * step_.length());
+    }
+    return step_.length() * sum / 2;
+  }
+
+  /// (psi_l, 1) at the contact points; set up at the first call. Collective.
+  const Vector& areas() const {
+    if (areas_.is_null()) {
+      const std::vector<scene::FieldPtr> zero(space().mesh().tags.size(), scene::constant(0));
+      const auto one = scene::constant(1);
+      areas_ = Teuchos::rcp(new Vector(space().map()));
+      space().load(*one, *one, {zero, zero}, 0, *areas_);
+    }
+    return *areas_;
+  }
+
+  const scene::MembraneScene& scene_;
+  const method::SpaceFactory& make_space_;
+  method::MethodParams method_;
+  algebra::LinearParams linear_;
+  mesh::Hierarchy hierarchy_;
+  std::unique_ptr<MembraneLevel> on_mesh_;
+  double weight_ = 0;  ///< 1/tau in the matrices; 0: none yet
+  TimeStep step_;
+  bool begun_ = false;  ///< step_ and before_ are those of the X at its end
+  bool open_ = false;   ///< … and it has not been accepted
+  Pair before_;         ///< u^{n-1}
+  double squared_error_ = 0;
+  mutable Teuchos::RCP<Vector> areas_;
+};
+
+class ParabolicMembranes final : public UnsteadyModel {
+ public:
+  ParabolicMembranes(scene::MembraneScene scene, method::SpaceFactory make_space, method::MethodParams method, algebra::LinearParams linear,
+                     method::MeshCheck check_mesh)
+      : scene_(std::move(scene)), make_space_(std::move(make_space)), check_mesh_(std::move(check_mesh)), method_(method), linear_(linear) {
+    for (int alpha = 0; alpha < 2; ++alpha)
+      if (!scene_.initial[alpha] && scene_.exact) scene_.initial[alpha] = scene_.exact->u[alpha];
+  }
+  std::string name() const override { return "parabolic membranes"; }
+  std::string case_name() const override { return scene_.name == "data" ? "" : scene_.name; }
+
+  std::unique_ptr<Evolution> evolve(const mesh::MeshParams& params, const core::Comm& comm, const std::string& folder,
+                                    const std::vector<std::string>& field_names) const override {
+    mesh::Hierarchy hierarchy;
+    {
+      const core::Region region("mesh");
+      hierarchy = mesh::build(params, comm, folder);
+    }
+    const mesh::Mesh& mesh = hierarchy.finest();
+    check_field_names(scene_, field_names);
+    for (int alpha = 0; alpha < 2; ++alpha)
+      if (!scene_.initial[alpha])
+        throw core::InputError(
+            fmt::format("scene/data/initial: nothing says where u{} is at time 0; give initial/u{}.", alpha + 1, alpha + 1));
+    check_functions(scene_, {scene_.initial[0], scene_.initial[1], nullptr}, method_, mesh);
+    check_order({scene_.initial[0], scene_.initial[1]}, method_, mesh);
+    if (check_mesh_) check_mesh_(mesh, {boundary_of(scene_, mesh).dirichlet, scene_.interface_level_set, method_});
+    return std::make_unique<ParabolicEvolution>(scene_, make_space_, method_, linear_, std::move(hierarchy));
+  }
+
+ private:
+  scene::MembraneScene scene_;
+  method::SpaceFactory make_space_;
+  method::MeshCheck check_mesh_;
+  method::MethodParams method_;
+  algebra::LinearParams linear_;
+};
+
+}  // namespace
+
+std::unique_ptr<UnsteadyModel> parabolic_membranes(scene::MembraneScene scene, method::SpaceFactory make_space, method::MethodParams method,
+                                                   algebra::LinearParams linear, method::MeshCheck check_mesh) {
+  return std::make_unique<ParabolicMembranes>(std::move(scene), std::move(make_space), method, linear, std::move(check_mesh));
+}
+
+}  // namespace thixis::models
