@@ -1,7 +1,5 @@
 #include "thixis/equilibration/step_bound.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
 
 #include "bound_parts.hpp"
@@ -479,28 +477,24 @@ complementarity::Estimate StepBound::so_far() const {
   return eta;
 }
 
+const std::vector<std::string>& StepBound::names_of_sums() {
+  static const std::vector<std::string> names = {"bound", "bound_remainder", "bound_discretization", "bound_linearization",
+                                                 "bound_algebraic"};
+  return names;
+}
+
 std::map<std::string, double> StepBound::sums() const {
   const Impl& in = *impl_;
-  return {{"bound", in.all.energy},
-          {"bound_remainder", in.all.remainder},
-          {"bound_discretization", in.disc2},
-          {"bound_linearization", in.lin2},
-          {"bound_algebraic", in.alg2}};
+  const double values[] = {in.all.energy, in.all.remainder, in.disc2, in.lin2, in.alg2};
+  std::map<std::string, double> sums;
+  for (std::size_t i = 0; i < names_of_sums().size(); ++i) sums[names_of_sums()[i]] = values[i];
+  return sums;
 }
 
 void StepBound::restore(const std::map<std::string, double>& sums) {
   Impl& in = *impl_;
-  const auto fetch = [&](const std::string& name, double& value) {
-    const auto found = sums.find(name);
-    if (found == sums.end())
-      throw core::InputError(fmt::format("The checkpoint has no '{}': it is of a run without a bound; start that run again.", name));
-    value = found->second;
-  };
-  fetch("bound", in.all.energy);
-  fetch("bound_remainder", in.all.remainder);
-  fetch("bound_discretization", in.disc2);
-  fetch("bound_linearization", in.lin2);
-  fetch("bound_algebraic", in.alg2);
+  double* const values[] = {&in.all.energy, &in.all.remainder, &in.disc2, &in.lin2, &in.alg2};
+  for (std::size_t i = 0; i < names_of_sums().size(); ++i) *values[i] = sums.at(names_of_sums()[i]);
 }
 
 GuaranteedBound::Fluxes StepBound::fluxes(int alpha) const {

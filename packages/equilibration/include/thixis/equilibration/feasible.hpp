@@ -77,8 +77,8 @@ class FeasiblePair {
   View<double* [2]> change_of_lift(const FeasiblePair* before) const;
   /// Bounds on |max(-gap, 0)|_K and, against the pair and the gap at an earlier time, on |max(-gap, 0) - max(-gap_before, 0)|_K. Overwrites
   /// `size`. `before` null: the former.
-  void change_of_move(const CellTable& gap, const View<double* [2]>& change_of_lift, const FeasiblePair* before, const CellTable& gap_before,
-                     const View<double*>& size) const;
+  void change_of_move(const CellTable& gap, const View<double* [2]>& change_of_lift, const FeasiblePair* before,
+                      const CellTable& gap_before, const View<double*>& size) const;
 
   /// Boundary data that are not affine in time bulge by d = g(t) - (g_before + g_after)/2 in the middle t of a step: the function that has
   /// the coefficients of d at the nodes of the boundary and is 0 at others.

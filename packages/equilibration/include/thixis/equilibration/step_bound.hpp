@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "thixis/equilibration/guaranteed_bound.hpp"
 
@@ -54,7 +55,8 @@ class StepBound {
   complementarity::Estimate so_far() const;
   /// The sums that so_far is made of, for checkpoints; all else follows from the iterate at the begin of a step.
   std::map<std::string, double> sums() const;
-  void restore(const std::map<std::string, double>& sums);  ///< throws InputError if one of them is missing
+  void restore(const std::map<std::string, double>& sums);  ///< all of names_of_sums()
+  static const std::vector<std::string>& names_of_sums();
 
   /// The fluxes of the last iterate, for tests; `density`: of f - ∂_t s_N - (-1)^alpha lambda, s_N the feasible pair at the nodes.
   GuaranteedBound::Fluxes fluxes(int alpha) const;
