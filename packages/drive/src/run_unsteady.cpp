@@ -2,10 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <Teuchos_RCP.hpp>
+
 #include "checkpoint.hpp"
 #include "expectations.hpp"
 #include "follow_evolution.hpp"
 #include "interrupt.hpp"
+#include "thixis/algebra/tpetra.hpp"
 #include "thixis/core/timer.hpp"
 
 namespace thixis::drive {
