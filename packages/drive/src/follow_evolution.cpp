@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <Teuchos_RCP.hpp>
+
 #include "interrupt.hpp"
 #include "results.hpp"
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <Teuchos_RCP.hpp>
+
 #include "checkpoint.hpp"
 #include "expectations.hpp"
 #include "follow_evolution.hpp"

@@ -135,10 +135,23 @@ double largest_tension(const scene::Field& tension, const std::vector<double>& x
 
 }  // namespace
 
+/// (mu grad v, grad w) in the layer, with what its right-hand side is made of.
+struct BoundaryLift::Equations {
+  method::Numbering numbering;
+  Kokkos::View<LocalIndex**, Kokkos::LayoutRight> elements;  ///< (layer cell, i) -> column
+  algebra::GraphPtr graph;
+  bool constant;  ///< v does not depend on constant tensions: one matrix for both
+  Rule rule;
+  std::array<std::vector<double>, 2> derivatives;  ///< at the points of the rule
+  std::unique_ptr<algebra::Solver> solver[2];
+};
+
+BoundaryLift::~BoundaryLift() = default;
+
 BoundaryLift::BoundaryLift(const method::PolynomialSpace& space, const ContinuousNodes& nodes,
                            const std::array<scene::FieldPtr, 2>& tension, const std::array<method::BoundaryValues, 2>& boundary,
-                           const std::vector<double> (&held)[2], int count)
-    : space_(space), host_(mesh::on_host(space.mesh())), count_(count), basis_(degree_of_v, reference::Family::bernstein) {
+                           const std::vector<double> (&held)[2], int count, double time, const BoundaryLift* other)
+    : space_(space), host_(mesh::on_host(space.mesh())), count_(count), time_(time), basis_(degree_of_v, reference::Family::bernstein) {
   for (const auto& value : boundary[0].dirichlet) dirichlet_.push_back(value != nullptr);
   const core::Comm& comm = space.mesh().comm;
   comm.together([&] { find_faces(nodes, tension, boundary, held); });
@@ -148,7 +161,9 @@ BoundaryLift::BoundaryLift(const method::PolynomialSpace& space, const Continuou
     return;
   }
   find_layer();
-  minimise(tension);
+  if (other) equations_ = other->equations_;
+  if (!equations_) set_up_equations(tension);
+  minimise();
   integrate(tension);
 }
 
@@ -198,7 +213,7 @@ void BoundaryLift::find_faces(const ContinuousNodes& nodes, const std::array<sce
       std::fill(difference.begin(), difference.end(), 0.0);
       double square = 0;
       for (int alpha = 0; alpha < count_; ++alpha) {
-        boundary[alpha].dirichlet[tag]->evaluate({x.size(), x.data(), y.data()}, 0, g.data());
+        boundary[alpha].dirichlet[tag]->evaluate({x.size(), x.data(), y.data()}, time_, g.data());
         LiftInCell& lift = cell.l[alpha];
         LiftInCell::Series& coefficient = lift.q[lift.faces];
         coefficient = {};
@@ -214,7 +229,7 @@ void BoundaryLift::find_faces(const ContinuousNodes& nodes, const std::array<sce
             coefficient[j] += rule.weight[q] * quotient * legendre[q * (LiftInCell::resolution + 1) + j];
         }
         for (int l = 0; l < n; ++l) u[l] = held[alpha][of_cells(k, l)];
-        boundary[alpha].dirichlet[tag]->evaluate({fine_x.size(), fine_x.data(), fine_y.data()}, 0, rho.data());
+        boundary[alpha].dirichlet[tag]->evaluate({fine_x.size(), fine_x.data(), fine_y.data()}, time_, rho.data());
         pieces.subtract(i, u.data(), rho);
         for (const double delta : rho) largest = std::max(largest, std::abs(delta));
         pieces.subtract_lift(coefficient, rho);
@@ -311,8 +326,7 @@ double BoundaryLift::bound_of_difference(LocalIndex place) const {
   return 1.1 * difference_[place] + most;  // on faces it was seen at points only
 }
 
-/// (mu grad v, grad w) = -(mu grad l, grad w) for all w like v.
-void BoundaryLift::minimise(const std::array<scene::FieldPtr, 2>& tension) {
+void BoundaryLift::set_up_equations(const std::array<scene::FieldPtr, 2>& tension) {
   const mesh::Mesh& mesh = space_.mesh();
   const int n = basis_.size();
   ContinuousNodes nodes = continuous_nodes(mesh, layer_, basis_, basis_.points(), dirichlet_);
@@ -338,57 +352,96 @@ void BoundaryLift::minimise(const std::array<scene::FieldPtr, 2>& tension) {
       }
   }
   const method::Numbering numbering = method::number(nodes.entries, mesh.comm);
-  Kokkos::View<LocalIndex**, Kokkos::LayoutRight> elements("thixis::equilibration::lift_elements", layer_.extent(0), n);
-  for (std::size_t k = 0; k < layer_.extent(0); ++k)
+  const LocalIndex count = layer_.extent_int(0);
+  const Kokkos::View<LocalIndex**, Kokkos::LayoutRight> elements("thixis::equilibration::lift_elements", count, n);
+  for (LocalIndex k = 0; k < count; ++k)
     for (int l = 0; l < n; ++l) elements(k, l) = numbering.column_of_entry(of_cells(k, l));
   const auto graph = method::make_graph(numbering.rows, numbering.columns, elements);
-  // v does not depend on constant tensions
   const bool constant = tension[0]->constant() && (count_ == 1 || tension[1]->constant());
   const std::array<scene::FieldPtr, 2> mu = constant ? std::array<scene::FieldPtr, 2>{scene::constant(1), scene::constant(1)} : tension;
   const Rule rule(mesh, layer_, order, basis_.bernstein(), mu, count_);
+  const auto equations = std::make_shared<Equations>(
+      Equations{numbering, elements, graph, constant, rule, derivatives(basis_.bernstein(), rule.quadrature.rule_xi), {}});
   const method::CellQuadrature of_v = method::make_quadrature(mesh, layer_, 2 * degree_of_v, nullptr);
-  const auto dB = derivatives(basis_.bernstein(), rule.quadrature.rule_xi);
-  const LocalIndex count = layer_.extent_int(0);
   algebra::LinearParams cg;
   cg.solver = algebra::SolverKind::cg;
   cg.preconditioner = algebra::PreconditionerKind::ilu;
-  algebra::Solver solver(cg);
+  for (int alpha = 0; alpha < (constant ? 1 : count_); ++alpha) {
+    const auto A = Teuchos::rcp(new algebra::Matrix(graph));
+    A->fillComplete();
+    const auto form = method::gradient_form(mesh, of_v, basis_, *mu[alpha]);
+    const LocalIndex most = std::min(method::cells_per_block(n), count);
+    const method::LocalMatrices local("thixis::equilibration::lift_matrices", most, n, n);
+    for (LocalIndex first = 0; first < count; first += most) {
+      const method::LocalMatrices block = Kokkos::subview(local, std::pair(0, std::min(most, count - first)), Kokkos::ALL, Kokkos::ALL);
+      form->matrices(first, block);
+      method::scatter(elements, first, block, *A);
+    }
+    equations->solver[alpha] = std::make_unique<algebra::Solver>(cg);
+    equations->solver[alpha]->set_matrix(A, 1, Teuchos::null);
+  }
+  equations_ = equations;
+}
+
+/// (mu grad v, grad w) = -(mu grad l, grad w) for all w like v.
+void BoundaryLift::minimise() {
+  const Equations& of = *equations_;
+  const int n = basis_.size();
+  const LocalIndex count = layer_.extent_int(0);
   std::vector<double> l[3];
   for (int alpha = 0; alpha < count_; ++alpha) {
-    if (alpha == 0 || !constant) {
-      const auto A = Teuchos::rcp(new algebra::Matrix(graph));
-      A->fillComplete();
-      const auto form = method::gradient_form(mesh, of_v, basis_, *mu[alpha]);
-      const LocalIndex most = std::min(method::cells_per_block(n), count);
-      const method::LocalMatrices local("thixis::equilibration::lift_matrices", most, n, n);
-      for (LocalIndex first = 0; first < count; first += most) {
-        const method::LocalMatrices block = Kokkos::subview(local, std::pair(0, std::min(most, count - first)), Kokkos::ALL, Kokkos::ALL);
-        form->matrices(first, block);
-        method::scatter(elements, first, block, *A);
-      }
-      solver.set_matrix(A, 1, Teuchos::null);
-    }
     const CellTable moments("thixis::equilibration::lift_moments", count, n);
     for (LocalIndex k = 0; k < count; ++k) {
       if (lift_[alpha][k].faces == 0) continue;
-      rule.table.evaluate(lift_[alpha][k], l);
-      weigh(rule, alpha, k, mesh::cell_geometry(host_.coordinates, host_.cell_vertices, layer_(k)), l);
-      add_products(-1, l, dB, n, &moments(k, 0));
+      of.rule.table.evaluate(lift_[alpha][k], l);
+      weigh(of.rule, alpha, k, mesh::cell_geometry(host_.coordinates, host_.cell_vertices, layer_(k)), l);
+      add_products(-1, l, of.derivatives, n, &moments(k, 0));
     }
-    algebra::Vector b(numbering.rows), x(numbering.rows);
-    method::scatter(elements, 0, moments, b);
+    algebra::Vector b(of.numbering.rows), x(of.numbering.rows);
+    method::scatter(of.elements, 0, moments, b);
     algebra::LinearStop stop;
     stop.tolerance = tolerance * b.norm2();
-    if (stop.tolerance > 0) solver.solve(b, x, stop);
-    algebra::Vector ghosted(numbering.columns);
-    const auto import = graph->getImporter();
+    if (stop.tolerance > 0) of.solver[of.constant ? 0 : alpha]->solve(b, x, stop);
+    algebra::Vector ghosted(of.numbering.columns);
+    const auto import = of.graph->getImporter();
     if (import.is_null()) ghosted.assign(x);
     else ghosted.doImport(x, *import, Tpetra::INSERT);
     const auto in = algebra::host_view(std::as_const(ghosted));
     for (std::size_t k = 0; k < owned_.extent(0); ++k)
       for (int i = 0; i < n; ++i)
-        if (elements(k, i) >= 0) lift_[alpha][k].v[i] = in(elements(k, i));
+        if (of.elements(k, i) >= 0) lift_[alpha][k].v[i] = in(of.elements(k, i));
   }
+}
+
+/// By the rule for |grad L|² where there is a face, which is more than enough.
+View<double* [2]> BoundaryLift::change(const BoundaryLift* before) const {
+  const bool then = before && !before->empty_;
+  if (empty_ && !then) return {};
+  const BoundaryLift& layer = empty_ ? *before : *this;
+  const mesh::Mesh& mesh = space_.mesh();
+  const View<double* [2]> norm("thixis::equilibration::change_of_lift", mesh.owned_cells);
+  const auto on_faces = method::make_quadrature(mesh, layer.owned_, order, nullptr),
+             inside = method::make_quadrature(mesh, layer.owned_, 2 * degree_of_v, nullptr);
+  const LiftTable of_faces = table(on_faces.rule_xi), of_inside = table(inside.rule_xi);
+  std::vector<double> L[3], other[3];
+  for (LocalIndex k = 0; k < layer.owned_.extent_int(0); ++k) {
+    const LocalIndex K = layer.owned_(k);
+    const double area = mesh::cell_area(host_.coordinates, host_.cell_vertices, K);
+    for (int alpha = 0; alpha < count_; ++alpha) {
+      const LiftInCell& lift = layer.lift_[alpha][k];
+      const auto& rule = lift.faces > 0 ? on_faces : inside;
+      const LiftTable& values = lift.faces > 0 ? of_faces : of_inside;
+      values.evaluate(lift, L);
+      if (then && !empty_) values.evaluate(before->lift_[alpha][k], other);
+      double square = 0;
+      for (int q = 0; q < values.points(); ++q) {
+        const double difference = L[0][q] - (then && !empty_ ? other[0][q] : 0);
+        square += 2 * area * rule.rule_weight(q) * difference * difference;
+      }
+      norm(K, alpha) = std::sqrt(square);
+    }
+  }
+  return norm;
 }
 
 void BoundaryLift::integrate(const std::array<scene::FieldPtr, 2>& tension) {

@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "feasible_kernel.hpp"
@@ -18,9 +19,12 @@ namespace thixis::equilibration {
 /// of all liftings (degree 1), three rows 2 %.
 class BoundaryLift {
  public:
-  /// `held`: coefficients of g_h on `nodes`. Collective.
+  /// Of the data at `time`. `held`: coefficients of g_h on `nodes`. `other`: a lift of these data at another time, whose equations are
+  /// taken over. Collective.
   BoundaryLift(const method::PolynomialSpace& space, const ContinuousNodes& nodes, const std::array<scene::FieldPtr, 2>& tension,
-               const std::array<method::BoundaryValues, 2>& boundary, const std::vector<double> (&held)[2], int count);
+               const std::array<method::BoundaryValues, 2>& boundary, const std::vector<double> (&held)[2], int count, double time = 0,
+               const BoundaryLift* other = nullptr);
+  ~BoundaryLift();
 
   /// The data are polynomials of degree p on the faces, up to round-off: there is no lift, and nothing is allocated for it.
   bool empty() const { return empty_; }
@@ -45,6 +49,8 @@ class BoundaryLift {
   Value operator()(int alpha, LocalIndex place, double xi, double eta) const;
   /// L_1 - L_2 there (over an obstacle L_1), to be tabulated at many points.
   LiftInCell difference(LocalIndex place) const;
+  /// (owned cell, alpha): |L_alpha - L_alpha of `before`|_K; `before` null: |L_alpha|_K. Of length 0 where both are empty.
+  View<double* [2]> change(const BoundaryLift* before) const;
   LiftTable table(const View<const double* [2]>& xi) const { return LiftTable(basis_.bernstein(), xi); }
   /// Of |L_1 - L_2| in that cell.
   double bound_of_difference(LocalIndex place) const;
@@ -59,12 +65,17 @@ class BoundaryLift {
   void find_faces(const ContinuousNodes& nodes, const std::array<scene::FieldPtr, 2>& tension,
                   const std::array<method::BoundaryValues, 2>& boundary, const std::vector<double> (&held)[2]);
   void find_layer();
-  void minimise(const std::array<scene::FieldPtr, 2>& tension);
+  void set_up_equations(const std::array<scene::FieldPtr, 2>& tension);
+  void minimise();
   void integrate(const std::array<scene::FieldPtr, 2>& tension);
+
+  struct Equations;
 
   const method::PolynomialSpace& space_;
   mesh::HostMesh host_;
   int count_;
+  double time_;
+  std::shared_ptr<const Equations> equations_;  ///< of v
   bool empty_ = true;
   std::vector<bool> dirichlet_;
   std::vector<Remainder> remainder_;

@@ -5,21 +5,21 @@ namespace {
 
 using reference::Entity;
 
-void evaluate_at(const method::Entries& entries, const std::vector<LocalIndex>& some, const scene::Field& field,
+void evaluate_at(const method::Entries& entries, const std::vector<LocalIndex>& some, const scene::Field& field, double time,
                  std::vector<double>& values) {
   std::vector<double> x, y, value(some.size());
   for (const LocalIndex e : some) {
     x.push_back(entries.point[e][0]);
     y.push_back(entries.point[e][1]);
   }
-  field.evaluate({some.size(), x.data(), y.data()}, 0, value.data());
+  field.evaluate({some.size(), x.data(), y.data()}, time, value.data());
   for (std::size_t i = 0; i < some.size(); ++i) values[some[i]] = value[i];
 }
 
 }  // namespace
 
 std::vector<double> boundary_coefficients(const method::PolynomialSpace& space, const ContinuousNodes& nodes,
-                                          const std::vector<scene::FieldPtr>& by_tag) {
+                                          const std::vector<scene::FieldPtr>& by_tag, double time) {
   const method::Entries& entries = nodes.entries;
   std::vector<double> values(entries.size(), 0.0);
   for (std::size_t tag = 0; tag < by_tag.size(); ++tag) {
@@ -27,7 +27,7 @@ std::vector<double> boundary_coefficients(const method::PolynomialSpace& space, 
     std::vector<LocalIndex> held;
     for (LocalIndex e = 0; e < entries.size(); ++e)
       if (entries.held[e] == static_cast<LocalIndex>(tag)) held.push_back(e);
-    evaluate_at(entries, held, *by_tag[tag], values);
+    evaluate_at(entries, held, *by_tag[tag], time, values);
   }
   const reference::CellBasis& basis = space.basis();
   if (basis.family() != reference::Family::bernstein) return values;
@@ -48,7 +48,7 @@ std::vector<double> interpolant(const method::PolynomialSpace& space, const Cont
   std::vector<LocalIndex> all(nodes.entries.size());
   for (LocalIndex e = 0; e < nodes.entries.size(); ++e) all[e] = e;
   std::vector<double> values(all.size());
-  evaluate_at(nodes.entries, all, field, values);
+  evaluate_at(nodes.entries, all, field, 0, values);
   const reference::CellBasis& basis = space.basis();
   if (basis.family() != reference::Family::bernstein) return values;
   std::vector<double> coefficients = values;

@@ -13,7 +13,7 @@ using CellEntries = Kokkos::View<const LocalIndex**, Kokkos::LayoutRight>;
 
 /// Where the values of a continuous function that `held` tags fix come from: values of the fields by tag, as coefficients. 0 elsewhere.
 std::vector<double> boundary_coefficients(const method::PolynomialSpace& space, const ContinuousNodes& nodes,
-                                          const std::vector<scene::FieldPtr>& by_tag);
+                                          const std::vector<scene::FieldPtr>& by_tag, double time);
 /// Coefficients of the interpolant of a function.
 std::vector<double> interpolant(const method::PolynomialSpace& space, const ContinuousNodes& nodes, const scene::Field& field);
 

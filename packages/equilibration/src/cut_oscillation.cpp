@@ -95,7 +95,7 @@ class Flux {
 
 }  // namespace
 
-CutOscillation::CutOscillation(const method::PolynomialSpace& space, int q, const scene::FieldPtr& interface)
+CutOscillation::CutOscillation(const method::PolynomialSpace& space, int q, const scene::FieldPtr& interface, double time)
     : comm_(space.mesh().comm), q_(q) {
   const mesh::Mesh& mesh = space.mesh();
   const auto own = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), space.quadrature().own_rule);
@@ -104,11 +104,11 @@ CutOscillation::CutOscillation(const method::PolynomialSpace& space, int q, cons
   if (!comm_.any(!cells_.empty())) return;
   fine_ = refined(mesh, cells_);
   const auto all = method::owned_cells(fine_);
-  quadrature_ = method::make_quadrature(fine_, all, space.quadrature().order, interface);
+  quadrature_ = method::make_quadrature(fine_, all, space.quadrature().order, interface, time);
   metric_ = metrics(fine_, all);
 }
 
-void CutOscillation::sharpen(const scene::Field& force, std::vector<double>& bound) const {
+void CutOscillation::sharpen(const scene::Field& force, double time, std::vector<double>& bound) const {
   if (!comm_.any(std::any_of(cells_.begin(), cells_.end(), [&](LocalIndex K) { return bound[K] > 0; }))) return;
   const auto metric = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), metric_);
   const reference::Modal modal(q_);
@@ -119,7 +119,7 @@ void CutOscillation::sharpen(const scene::Field& force, std::vector<double>& bou
   const auto at_rule = modal.values(rule_xi.extent_int(0), rule_xi.data());
   comm_.together([&] {
     method::for_each_block(quadrature_, [&](const method::QuadratureBlock& block) {
-      method::evaluate(force, 0, block, values);
+      method::evaluate(force, time, block, values);
       std::vector<double> at_own;
       for (LocalIndex c = 0; c < block.cells; ++c) {
         const int first = block.offset(c), count = block.offset(c + 1) - first;

@@ -15,12 +15,13 @@ constexpr double poincare = 1 / 3.831705970207512;
 ///
 ///     |sigma|_K + (sum_c (h_c/j)² |f - Pi_c f|²_c)^{1/2},   div sigma = Pi_c f - Pi_q f on each child c,
 ///
-/// The children and their quadrature are made once, for the data of all membranes; nothing where the interface cuts no cell. Collective.
+/// The children and their quadrature are made once, for the data of all membranes, with the interface where it is at `time`; nothing where
+/// the interface cuts no cell. Collective.
 class CutOscillation {
  public:
-  CutOscillation(const method::PolynomialSpace& space, int q, const scene::FieldPtr& interface);
+  CutOscillation(const method::PolynomialSpace& space, int q, const scene::FieldPtr& interface, double time);
   /// Lowers the entries of `bound` (owned cells, not yet divided by the root of the tension) where this is less. Collective.
-  void sharpen(const scene::Field& force, std::vector<double>& bound) const;
+  void sharpen(const scene::Field& force, double time, std::vector<double>& bound) const;
 
  private:
   core::Comm comm_;

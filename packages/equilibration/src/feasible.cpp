@@ -7,6 +7,7 @@
 #include "averages.hpp"
 #include "deviation.hpp"
 #include "sources.hpp"
+#include "tables.hpp"
 #include "thixis/core/assert.hpp"
 #include "thixis/method/gradient_form.hpp"
 #include "to_view.hpp"
@@ -67,21 +68,115 @@ void resize(View<double*>& values, const char* label, LocalIndex count) {
   if (values.extent_int(0) != count) values = View<double*>(std::string(label), count);
 }
 
+/// u_h - s_c, s_c - s_N and the gap of s_N in a cell.
+struct WayOfCells {
+  CellEntries of_cells, of_cells_u;
+  View<const double*> theta;
+  double apart[2];
+  method::CellFunctions functions;
+  Matrix modal;
+  int count;
+  View<const double*> upper, lower;  ///< s_c
+  method::Coefficients u1, u2;
+  CellTable averages1, averages2, closing1, closing2, gap;  ///< out, overwritten
+
+  KOKKOS_FUNCTION void put(int K, const double* c, const CellTable& out) const {
+    const int n = functions.size();
+    for (int m = 0; m < n; ++m) {
+      double value = 0;
+      for (int l = 0; l < n; ++l) value += modal(m, l) * c[l];
+      out(K, m) = value;
+    }
+  }
+  KOKKOS_FUNCTION void operator()(int K) const {
+    const int n = functions.size();
+    double open[reference::max_functions], closing[2][reference::max_functions], jump[reference::max_functions];
+    for (int l = 0; l < n; ++l) {
+      const LocalIndex e = of_cells(K, l);
+      open[l] = upper(e) - lower(e);
+      const double below = open[l] < 0 ? -open[l] : 0, share = theta.extent(0) > 0 ? theta(e) : apart[0];
+      closing[0][l] = -share * below;
+      closing[1][l] = (1 - share) * below;
+      if (below > 0) open[l] = 0;
+    }
+    double c[reference::max_functions];
+    functions.to_bernstein(open, c);
+    for (int k = 0; k < n; ++k) gap(K, k) = c[k];
+    for (int alpha = 0; alpha < count; ++alpha) {
+      const CellTable &of_averages = alpha == 0 ? averages1 : averages2, &of_closing = alpha == 0 ? closing1 : closing2;
+      if (of_closing.extent(0) > 0) put(K, closing[alpha], of_closing);
+      if (of_averages.extent(0) == 0) continue;
+      for (int l = 0; l < n; ++l) jump[l] = (alpha == 0 ? u1 : u2)(of_cells_u(K, l)) - (alpha == 0 ? upper : lower)(of_cells(K, l));
+      put(K, jump, of_averages);
+    }
+  }
+};
+
+/// |max(-g, 0) - max(-g', 0)| <= |g - g'|, and <= max(-g, 0) + max(-g', 0) <= what the coefficients say; it vanishes where both g, g' >= 0.
+struct NegativePartInTime {
+  FeasibleParts now, then;
+  bool has_then;
+  CellTable gap, gap_before;
+  View<double* [2]> change_of_lift;
+  View<double*> size;  ///< out, overwritten
+
+  KOKKOS_FUNCTION double lowest(const FeasibleParts& of, int K, const double* c) const {
+    double low = 0;
+    for (int k = 0; k < of.functions.size(); ++k) low = c[k] < low ? c[k] : low;
+    const LocalIndex place = of.deviation(K);
+    return place < 0 ? -low : of.deviation.bound(place) - low;
+  }
+  KOKKOS_FUNCTION void operator()(int K) const {
+    const int n = now.functions.size();
+    size(K) = 0;
+    const bool moves = now.moves(K, &gap(K, 0)), moved = has_then && then.moves(K, &gap_before(K, 0));
+    if (!moves && !moved) return;
+    const double area = mesh::cell_geometry(now.x, now.vertices, K).area;
+    const double at_most = std::sqrt(area) * ((moves ? lowest(now, K, &gap(K, 0)) : 0) + (moved ? lowest(then, K, &gap_before(K, 0)) : 0));
+    size(K) = at_most;
+    if (!has_then) return;
+    double square = 0;
+    for (int m = 0; m < n; ++m) {
+      double value = 0;
+      for (int k = 0; k < n; ++k) value += now.to_modal(m, k) * (gap(K, k) - gap_before(K, k));
+      square += value * value;
+    }
+    double change = std::sqrt(2 * area * square);
+    for (int alpha = 0; change_of_lift.extent(0) > 0 && alpha < 2; ++alpha) change += change_of_lift(K, alpha);
+    size(K) = change < at_most ? change : at_most;
+  }
+};
+
 }  // namespace
 
 struct FeasiblePair::Impl {
-  Impl(const method::PolynomialSpace& space_, const Problem& problem)
-      : space(space_), nodes(nodes_of(space, held_tags(problem.boundary[0]))), monomials(density_monomials()) {
-    set_tensions(problem);
-    set_kernel(problem.count);
-    set_boundary(problem);
+  Impl(const method::PolynomialSpace& space_, const Problem& problem_)
+      : space(space_), problem(problem_), nodes(nodes_of(space, held_tags(problem.boundary[0]))), monomials(density_monomials()) {
+    set_tensions();
+    set_kernel();
+    set_boundary(nullptr);
     if (space.conforming()) return;
     averages.emplace(space, nodes);
-    for (int alpha = 0; alpha < problem.count; ++alpha)
-      averaged[alpha] = View<double*>("thixis::equilibration::averaged", nodes.entries.size());
+    for (int alpha = 0; alpha < problem.count; ++alpha) averaged[alpha] = at_nodes();
+  }
+  /// The same but for the boundary data.
+  Impl(const Impl& other, double time)
+      : space(other.space),
+        problem(other.problem),
+        nodes(other.nodes),
+        monomials(other.monomials),
+        modal(other.modal),
+        tension(other.tension),
+        kernel(other.kernel),
+        averages(other.averages) {
+    problem.time = time;
+    set_boundary(other.lift.get());
+    for (int alpha = 0; averages && alpha < problem.count; ++alpha) averaged[alpha] = at_nodes();
   }
 
-  void set_tensions(const Problem& problem) {
+  View<double*> at_nodes() const { return View<double*>("thixis::equilibration::averaged", nodes.entries.size()); }
+
+  void set_tensions() {
     const core::Comm& comm = space.mesh().comm;
     const bool both = problem.count == 2;
     bool varying = false;
@@ -108,9 +203,9 @@ struct FeasiblePair::Impl {
     if (both) kernel.theta = to_view("thixis::equilibration::theta", comm.together([&] { return shares(space, nodes, problem.tension); }));
   }
 
-  void set_kernel(int count) {
+  void set_kernel() {
     const mesh::Mesh& mesh = space.mesh();
-    kernel.count = count;
+    kernel.count = problem.count;
     kernel.x = mesh.coordinates;
     kernel.vertices = mesh.cell_vertices;
     kernel.functions = method::cell_functions(space.basis());
@@ -119,14 +214,18 @@ struct FeasiblePair::Impl {
     kernel.to_modal = bernstein_to_modal(space.basis());
     kernel.of_cells = nodes.of_cells;
     kernel.density.to_monomials = monomials;
+    const int n = space.basis().size();
+    const reference::Modal orthonormal(space.basis().degree());
+    modal = matrix("thixis::equilibration::to_modal", n, n, to_modal(space.basis(), orthonormal));
     if (!space.conforming()) kernel.of_cells_u = space.coefficients().element_entries;
   }
 
-  void set_boundary(const Problem& problem) {
+  /// `other`: a lift at another time.
+  void set_boundary(const BoundaryLift* other) {
     std::vector<double> held[2];
     space.mesh().comm.together([&] {
       for (int alpha = 0; alpha < problem.count; ++alpha)
-        held[alpha] = boundary_coefficients(space, nodes, problem.boundary[alpha].dirichlet);
+        held[alpha] = boundary_coefficients(space, nodes, problem.boundary[alpha].dirichlet, problem.time);
       if (problem.count == 1) held[1] = interpolant(space, nodes, *problem.obstacle);
     });
     // Bernstein coefficients of ordered data need not be ordered
@@ -136,16 +235,30 @@ struct FeasiblePair::Impl {
       held[0][e] += share * below;
       held[1][e] -= (1 - share) * below;
     }
-    lift = std::make_unique<BoundaryLift>(space, nodes, problem.tension, problem.boundary, held, problem.count);
+    lift = std::make_unique<BoundaryLift>(space, nodes, problem.tension, problem.boundary, held, problem.count, problem.time, other);
     kernel.lift = lift->of_cells();
     kernel.deviation =
         problem.count == 2 ? deviation_of_membranes(space, *lift) : deviation_of_obstacle(space, *lift, nodes, problem.obstacle, held[1]);
     for (int alpha = 0; alpha < 2; ++alpha) data[alpha] = to_view("thixis::equilibration::held", held[alpha]);
   }
 
+  /// Gaps below are round-off. Collective.
+  double noise(const Continuous& s_c) const {
+    double size = 0;
+    Kokkos::parallel_reduce(
+        "thixis::equilibration::size", Kokkos::RangePolicy<>(0, s_c[0].extent(0)),
+        KOKKOS_LAMBDA(std::size_t e, double& most) {
+          for (const auto& s : s_c) most = std::max(most, std::abs(s(e)));
+        },
+        Kokkos::Max<double>(size));
+    return 1e-13 * space.mesh().comm.max(size);
+  }
+
   const method::PolynomialSpace& space;
+  Problem problem;
   ContinuousNodes nodes;
   Matrix monomials;
+  Matrix modal;  ///< (m, l): modal coefficients of basis functions
   Tension tension;
   FeasibleParts kernel;
   View<const double*> data[2];  ///< coefficients on the held boundary; over an obstacle [1] is psi_I
@@ -155,6 +268,7 @@ struct FeasiblePair::Impl {
 };
 
 FeasiblePair::FeasiblePair(const method::PolynomialSpace& space, const Problem& problem) : impl_(std::make_unique<Impl>(space, problem)) {}
+FeasiblePair::FeasiblePair(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 FeasiblePair::~FeasiblePair() = default;
 
 void FeasiblePair::evaluate(const method::Coefficients (&u)[2], const ConstCellTable& lambda, int degree, Parts& parts,
@@ -175,14 +289,7 @@ void FeasiblePair::evaluate(const method::Coefficients (&u)[2], const ConstCellT
     (*impl_->averages)(u[alpha], impl_->data[alpha], impl_->averaged[alpha]);
     kernel.s_c[alpha] = impl_->averaged[alpha];
   }
-  double size = 0;
-  Kokkos::parallel_reduce(
-      "thixis::equilibration::size", Kokkos::RangePolicy<>(0, kernel.s_c[0].extent(0)),
-      KOKKOS_LAMBDA(std::size_t e, double& most) {
-        for (const auto& s : kernel.s_c) most = std::max(most, std::abs(s(e)));
-      },
-      Kokkos::Max<double>(size));
-  kernel.noise = 1e-13 * impl_->space.mesh().comm.max(size);
+  kernel.noise = impl_->noise({kernel.s_c[0], kernel.s_c[1]});
   kernel.small = small;
   kernel.lambda = lambda;
   kernel.density.degree = degree;
@@ -196,6 +303,137 @@ void FeasiblePair::evaluate(const method::Coefficients (&u)[2], const ConstCellT
     parts.whole(cell) += energy;
     parts.rest(cell) += energy;
   }
+}
+
+std::unique_ptr<FeasiblePair> FeasiblePair::at(double time) const {
+  return std::unique_ptr<FeasiblePair>(new FeasiblePair(std::make_unique<Impl>(*impl_, time)));
+}
+double FeasiblePair::time() const { return impl_->problem.time; }
+
+FeasiblePair::Continuous FeasiblePair::continuous(const method::Coefficients (&u)[2]) const {
+  Continuous s_c = {u[0], impl_->problem.count == 2 ? View<const double*>(u[1]) : impl_->data[1]};
+  for (int alpha = 0; impl_->averages && alpha < impl_->problem.count; ++alpha) {
+    const auto average = impl_->at_nodes();
+    (*impl_->averages)(u[alpha], impl_->data[alpha], average);
+    s_c[alpha] = average;
+  }
+  return s_c;
+}
+
+FeasiblePair::Way FeasiblePair::way(const method::Coefficients (&u)[2], const Continuous& s_c) const {
+  const method::PolynomialSpace& space = impl_->space;
+  const LocalIndex cells = space.mesh().owned_cells;
+  const int n = space.basis().size(), count = impl_->problem.count;
+  const FeasibleParts& kernel = impl_->kernel;
+  const bool averages = impl_->averages.has_value();
+  int below = 0;
+  const auto above = s_c[0], under = s_c[1];
+  const auto of_cells = kernel.of_cells;
+  Kokkos::parallel_reduce(
+      "thixis::equilibration::any_below", Kokkos::RangePolicy<>(0, cells),
+      KOKKOS_LAMBDA(int K, int& found) {
+        for (int l = 0; l < n; ++l) found = above(of_cells(K, l)) < under(of_cells(K, l)) ? 1 : found;
+      },
+      Kokkos::Max<int>(below));
+  const bool closes = space.mesh().comm.max(below) > 0;
+  Way way;
+  const auto table = [&] { return CellTable("thixis::equilibration::way", cells, n); };
+  way.gap = table();
+  for (int alpha = 0; alpha < count; ++alpha) {
+    if (averages) way.averages[alpha] = table();
+    if (closes) way.closing[alpha] = table();
+  }
+  WayOfCells of{kernel.of_cells,
+                kernel.of_cells_u,
+                kernel.theta,
+                {kernel.apart[0], kernel.apart[1]},
+                kernel.functions,
+                impl_->modal,
+                count,
+                s_c[0],
+                s_c[1],
+                u[0],
+                u[1],
+                way.averages[0],
+                way.averages[1],
+                way.closing[0],
+                way.closing[1],
+                way.gap};
+  Kokkos::parallel_for("thixis::equilibration::way", Kokkos::RangePolicy<>(0, cells), of);
+  return way;
+}
+
+void FeasiblePair::contact(const Continuous& s_c, const ConstCellTable& lambda, int degree, const View<double*>& contact,
+                           double small) const {
+  FeasibleParts kernel = impl_->kernel;
+  for (int alpha = 0; alpha < 2; ++alpha) kernel.s_c[alpha] = s_c[alpha];
+  kernel.noise = impl_->noise(s_c);
+  kernel.small = small;
+  kernel.lambda = lambda;
+  kernel.density.degree = degree;
+  Kokkos::parallel_for(
+      "thixis::equilibration::contact", Kokkos::RangePolicy<>(0, contact.extent(0)),
+      KOKKOS_LAMBDA(int K) { contact(K) = kernel.contact_alone(K); });
+}
+
+std::array<double, 2> FeasiblePair::apart() const { return {impl_->kernel.apart[0], impl_->kernel.apart[1]}; }
+
+View<double* [2]> FeasiblePair::change_of_lift(const FeasiblePair* before) const {
+  return before == this ? View<double* [2]>() : impl_->lift->change(before ? before->impl_->lift.get() : nullptr);
+}
+
+void FeasiblePair::change_of_move(const CellTable& gap, const View<double* [2]>& change_of_lift, const FeasiblePair* before,
+                                 const CellTable& gap_before, const View<double*>& size) const {
+  const FeasibleParts now = impl_->kernel, then = before ? before->impl_->kernel : impl_->kernel;
+  NegativePartInTime of{now, then, before != nullptr, gap, gap_before, change_of_lift, size};
+  Kokkos::parallel_for("thixis::equilibration::negative_part_in_time", Kokkos::RangePolicy<>(0, size.extent(0)), of);
+}
+
+FeasiblePair::Bulge FeasiblePair::bulge(const FeasiblePair& before, const FeasiblePair& after) const {
+  const method::PolynomialSpace& space = impl_->space;
+  const core::Comm& comm = space.mesh().comm;
+  const int count = impl_->problem.count, n = space.basis().size();
+  std::vector<double> d[2];
+  double most = 0, size = 0;
+  comm.together([&] {
+    for (int alpha = 0; alpha < count; ++alpha) {
+      d[alpha] = boundary_coefficients(space, impl_->nodes, impl_->problem.boundary[alpha].dirichlet, impl_->problem.time);
+      const auto first = before.impl_->data[alpha], last = after.impl_->data[alpha];
+      for (std::size_t e = 0; e < d[alpha].size(); ++e) {
+        size = std::max(size, std::abs(d[alpha][e]));
+        d[alpha][e] -= 0.5 * (first(e) + last(e));
+        most = std::max(most, std::abs(d[alpha][e]));
+      }
+    }
+  });
+  if (comm.max(most) <= 1e-13 * comm.max(size)) return {};
+  const LocalIndex cells = space.mesh().owned_cells;
+  Bulge bulge{View<double*>("thixis::equilibration::bulge_energy", cells), View<double* [2]>("thixis::equilibration::bulge_size", cells),
+              CellTable("thixis::equilibration::bulge_gap", cells, n)};
+  View<const double*> coefficients[2];
+  for (int alpha = 0; alpha < count; ++alpha) coefficients[alpha] = to_view("thixis::equilibration::bulge", d[alpha]);
+  const FeasibleParts kernel = impl_->kernel;
+  const Matrix modal = impl_->modal;
+  Kokkos::parallel_for(
+      "thixis::equilibration::bulge", Kokkos::RangePolicy<>(0, cells), KOKKOS_LAMBDA(int K) {
+        const mesh::CellGeometry geometry = mesh::cell_geometry(kernel.x, kernel.vertices, K);
+        double square = 0;
+        for (int alpha = 0; alpha < count; ++alpha) {
+          double local[reference::max_functions], c[reference::max_functions], mass = 0;
+          for (int l = 0; l < n; ++l) local[l] = coefficients[alpha](kernel.of_cells(K, l));
+          kernel.functions.to_bernstein(local, c);
+          square += kernel.energy(alpha, K, geometry, c);
+          for (int m = 0; m < n; ++m) {
+            double value = 0;
+            for (int l = 0; l < n; ++l) value += modal(m, l) * local[l];
+            mass += value * value;
+            bulge.gap(K, m) += alpha == 0 ? value : -value;
+          }
+          bulge.size(K, alpha) = std::sqrt(2 * geometry.area * mass);
+        }
+        bulge.energy(K) = std::sqrt(square > 0 ? square : 0);
+      });
+  return bulge;
 }
 
 double FeasiblePair::boundary_energy() const { return impl_->lift->energy(); }

@@ -64,6 +64,25 @@ KOKKOS_FUNCTION FeasibleParts::Move FeasibleParts::move_pointwise(int K, LocalIn
   return move;
 }
 
+KOKKOS_FUNCTION double FeasibleParts::contact_alone(int K) const {
+  if (!pressed(K)) return 0;
+  double node_gap[most], gap[most];
+  for (int l = 0; l < functions.size(); ++l) {
+    const LocalIndex e = of_cells(K, l);
+    const double open = s_c[0](e) - s_c[1](e);
+    node_gap[l] = open < 0 ? 0 : open;
+  }
+  functions.to_bernstein(node_gap, gap);
+  const mesh::CellGeometry geometry = mesh::cell_geometry(x, vertices, K);
+  const LocalIndex place = deviation(K);
+  return (place < 0 ? move_polynomial(K, geometry, gap, true) : move_pointwise(K, place, geometry, gap, true)).contact;
+}
+
+KOKKOS_FUNCTION bool FeasibleParts::moves(int K, const double* gap) const {
+  const LocalIndex place = deviation(K);
+  return smallest(functions.size(), gap) < (place < 0 ? 0 : deviation.bound(place));
+}
+
 KOKKOS_FUNCTION void FeasibleParts::operator()(int K) const {
   const int n = functions.size();
   // s_c -> s_N: the change of each membrane and the gap that is left, at the nodes

@@ -51,6 +51,10 @@ struct FeasibleParts {
   View<double*> whole, at_nodes, rest, contact;  ///< out, overwritten
 
   KOKKOS_FUNCTION void operator()(int K) const;
+  /// What `contact` is of s_c alone.
+  KOKKOS_FUNCTION double contact_alone(int K) const;
+  /// Whether the gap, in Bernstein coefficients, has a negative part that the pointwise move takes away.
+  KOKKOS_FUNCTION bool moves(int K, const double* gap) const;
 
  private:
   static constexpr int most = reference::max_functions;

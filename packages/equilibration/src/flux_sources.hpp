@@ -18,9 +18,11 @@ struct Represent {
   }
 };
 
-/// g_a = psi_a (f - r) - (-1)^alpha (lambda^ of a) - w·grad psi_a, for the three vertices of a cell; the target is -w.
+/// g_a = psi_a (f - rate - r) - (-1)^alpha (lambda^ of a) - w·grad psi_a, for the three vertices of a cell; the target is -w.
 struct PatchSources {
-  ConstCellTable f, r_alg, r_lin, lambda, w;
+  ConstCellTable f;
+  ConstCellTable rate;  ///< of length 0: none
+  ConstCellTable r_alg, r_lin, lambda, w;
   double sign;                                               ///< -(-1)^alpha
   Kokkos::View<const double***, Kokkos::LayoutRight> times;  ///< (i, m, k): lambda_i phi_k -> phi_m
   CellTable density, target;                                 ///< out, overwritten
@@ -29,6 +31,7 @@ struct PatchSources {
     const int n = times.extent_int(1), wide = times.extent_int(2);
     double source[reference::dimension(5)];
     for (int m = 0; m < wide; ++m) source[m] = f(k, m) - (m < n ? r_alg(k, m) + r_lin(k, m) : 0);
+    for (int m = 0; m < rate.extent_int(1); ++m) source[m] -= rate(k, m);
     for (int i = 0; i < 3; ++i)
       for (int m = 0; m < n; ++m) {
         const double slope = i == 0 ? -w(k, m) - w(k, n + m) : w(k, (i - 1) * n + m);

@@ -189,14 +189,14 @@ class Evaluation {
         alg_K("thixis::equilibration::alg", owned), lin_K("thixis::equilibration::lin", owned);
     std::vector<double> sum(5, 0.0);
     for (int alpha = 0; alpha < problem_.count; ++alpha) {
-      const Sources data = sources(space_, q_, *problem_.force[alpha], problem_.boundary[alpha], nullptr, least_[alpha]);
+      const Sources data = sources(space_, q_, *problem_.force[alpha], problem_.boundary[alpha], problem_.time, nullptr, least_[alpha]);
       const auto stress = make_stress(space_, q_, *problem_.tension[alpha], least_[alpha]);
       space_.share(*iterate_.residual[alpha], moments);
       Kokkos::parallel_for("thixis::equilibration::represent", Kokkos::RangePolicy<>(0, cells), Represent{moments, from, r});
       lift(r, alg);
       (*stress)(iterate_.u[alpha], w);
       Kokkos::parallel_for("thixis::equilibration::patch_data", Kokkos::RangePolicy<>(0, cells),
-                           PatchSources{data.force, r, none, of_lambda, w, alpha == 0 ? 1.0 : -1.0, times_hats(q_), density, target});
+                           PatchSources{data.force, {}, r, none, of_lambda, w, alpha == 0 ? 1.0 : -1.0, times_hats(q_), density, target});
       patches({density, target, data.traction}, disc);
       stress->norms(iterate_.u[alpha], w, {disc, alg, {}}, {all_K, disc_K, alg_K, lin_K});
       const auto on_host = [](const auto& v) { return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), v); };

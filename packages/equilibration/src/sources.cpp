@@ -25,7 +25,7 @@ struct PointValues {
 };
 
 /// force(k, ·) and the squares |f - Pi_q f|²_K of the owned cells.
-void project(const method::PolynomialSpace& space, int q, const scene::Field& force, const CellTable& out,
+void project(const method::PolynomialSpace& space, int q, const scene::Field& force, double time, const CellTable& out,
              std::vector<double>& oscillation) {
   const auto& quadrature = space.quadrature();
   const PointValues values(q + 1, quadrature);
@@ -35,7 +35,7 @@ void project(const method::PolynomialSpace& space, int q, const scene::Field& fo
   const auto host = Kokkos::create_mirror_view(out);
   const View<double*> f("thixis::equilibration::force_at_points", quadrature.largest_block);
   method::for_each_block(quadrature, [&](const method::QuadratureBlock& block) {
-    method::evaluate(force, 0, block, f);
+    method::evaluate(force, time, block, f);
     const auto at = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), f);
     const auto offset = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), block.offset);
     const auto own = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), block.own_rule);
@@ -67,7 +67,7 @@ void project(const method::PolynomialSpace& space, int q, const scene::Field& fo
 }
 
 /// Moments of -psi_a t on the faces of the boundary that have Neumann data, and |t - Pi_q t|²_F.
-void project_traction(const method::PolynomialSpace& space, int q, const scene::Field& t, LocalIndex tag, int order,
+void project_traction(const method::PolynomialSpace& space, int q, const scene::Field& t, double time, LocalIndex tag, int order,
                       const CellTable::HostMirror& traction, std::vector<double>& rest) {
   const mesh::Mesh& mesh = space.mesh();
   const auto host = mesh::on_host(mesh);
@@ -83,7 +83,7 @@ void project_traction(const method::PolynomialSpace& space, int q, const scene::
     }
   }
   std::vector<double> values(x.size());
-  t.evaluate({x.size(), x.data(), y.data()}, 0, values.data());
+  t.evaluate({x.size(), x.data(), y.data()}, time, values.data());
   for (std::size_t f = 0; f < faces.size(); ++f) {
     const double length = mesh::face_geometry(host.coordinates, host.face_vertices, faces[f]).length;
     std::vector<double> moment(q + 1, 0.0);
@@ -139,7 +139,7 @@ std::vector<double> least_tension(const method::PolynomialSpace& space, const sc
   return least;
 }
 
-Sources sources(const method::PolynomialSpace& space, int q, const scene::Field& force, const method::BoundaryValues& boundary,
+Sources sources(const method::PolynomialSpace& space, int q, const scene::Field& force, const method::BoundaryValues& boundary, double time,
                 const CutOscillation* cut_cells, const std::vector<double>& least_tension) {
   const mesh::Mesh& mesh = space.mesh();
   const auto host = mesh::on_host(mesh);
@@ -156,17 +156,18 @@ Sources sources(const method::PolynomialSpace& space, int q, const scene::Field&
   }
   const int order = space.quadrature().order;  // that of the loads: on it depends whether patches are compatible
   mesh.comm.together([&] {
-    project(space, q, force, data.force, square);
+    project(space, q, force, time, data.force, square);
     if (!neumann) return;
     const auto traction = Kokkos::create_mirror_view(data.traction);
     for (std::size_t tag = 0; tag < boundary.neumann.size(); ++tag)
-      if (boundary.neumann[tag]) project_traction(space, q, *boundary.neumann[tag], static_cast<LocalIndex>(tag), order, traction, rest);
+      if (boundary.neumann[tag])
+        project_traction(space, q, *boundary.neumann[tag], time, static_cast<LocalIndex>(tag), order, traction, rest);
     Kokkos::deep_copy(data.traction, traction);
   });
   const auto h = diameters(mesh);
   std::vector<double> sharp(mesh.owned_cells);
   for (LocalIndex K = 0; K < mesh.owned_cells; ++K) sharp[K] = poincare * h[K] * std::sqrt(square[K]);
-  if (cut_cells) cut_cells->sharpen(force, sharp);
+  if (cut_cells) cut_cells->sharpen(force, time, sharp);
   const auto oscillation = Kokkos::create_mirror_view(data.oscillation), of_sharp = Kokkos::create_mirror_view(data.sharp_oscillation),
              of_traction = Kokkos::create_mirror_view(data.traction_oscillation);
   for (LocalIndex K = 0; K < mesh.owned_cells; ++K) {

@@ -6,7 +6,7 @@
 
 namespace thixis::equilibration {
 
-/// What is known of the data of one membrane, cell by cell, once per mesh.
+/// What is known of the data of one membrane at one time, cell by cell.
 struct Sources {
   CellTable force;                     ///< (patch cell, dim P_{q+1}): density of the projection of f
   View<double*> oscillation;           ///< (owned cell): h_K/pi mu^{-1/2} |f - Pi_q f|_K
@@ -19,9 +19,9 @@ struct Sources {
 ///
 ///     |v|²_F <= |F| h_K²/|K| (1 + pi)/pi² |grad v|²_K,
 ///
-/// as (that constant)^{1/2} mu^{-1/2} |t - Pi_q t|_F. mu: its least value in the cell. `cut_cells`: null where nothing asks for the
-/// sharp oscillation. Collective.
-Sources sources(const method::PolynomialSpace& space, int q, const scene::Field& force, const method::BoundaryValues& boundary,
+/// as (that constant)^{1/2} mu^{-1/2} |t - Pi_q t|_F. mu: its least value in the cell. `time`: of the data. `cut_cells`: null where nothing
+/// asks for the sharp oscillation. Collective.
+Sources sources(const method::PolynomialSpace& space, int q, const scene::Field& force, const method::BoundaryValues& boundary, double time,
                 const CutOscillation* cut_cells, const std::vector<double>& least_tension);
 
 /// The least value of the tension at the quadrature points of each owned cell. Collective; throws InputError where it is not positive.

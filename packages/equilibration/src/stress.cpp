@@ -86,13 +86,14 @@ struct ConstantNorms {
   KOKKOS_FUNCTION void operator()(int K) const {
     const int n = w.extent_int(1) / 2, m = sigma.disc.extent_int(1) / 2;
     const Metric M = metric(K);
+    const int modes = m > n ? m : n;
     double v[2][most_modes];
     for (int d = 0; d < 2; ++d)
-      for (int i = 0; i < m; ++i) v[d][i] = sigma.disc(K, d * m + i) + (i < n ? w(K, d * n + i) : 0);
-    norm.disc(K) = factor * root(M.square(v[0], v[1], m));
+      for (int i = 0; i < modes; ++i) v[d][i] = (i < m ? sigma.disc(K, d * m + i) : 0) + (i < n ? w(K, d * n + i) : 0);
+    norm.disc(K) = factor * root(M.square(v[0], v[1], modes));
     add(sigma.alg, K, v);
     add(sigma.lin, K, v);
-    norm.whole(K) = factor * root(M.square(v[0], v[1], m));
+    norm.whole(K) = factor * root(M.square(v[0], v[1], modes));
     norm.alg(K) = factor * size(sigma.alg, M, K);
     norm.lin(K) = factor * size(sigma.lin, M, K);
   }

@@ -21,7 +21,7 @@ class Stress {
     View<double*> disc;      ///< |mu^{1/2} grad u + mu^{-1/2} disc|_K
     View<double*> alg, lin;  ///< |mu^{-1/2} alg|_K, |mu^{-1/2} lin|_K, from above
   };
-  /// In one pass over the fluxes; w as above. Overwrites the norms.
+  /// In one pass over the fluxes; w as above, that of u. Without any flux disc is |mu^{1/2} grad u|_K. Overwrites the norms.
   virtual void norms(const method::Coefficients& u, const ConstCellTable& w, const Fluxes& sigma, const Norms& norm) const = 0;
 };
 

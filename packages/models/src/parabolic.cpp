@@ -8,6 +8,7 @@
 #include "membrane_level.hpp"
 #include "thixis/core/error.hpp"
 #include "thixis/core/timer.hpp"
+#include "thixis/equilibration/step_bound.hpp"
 #include "thixis/mesh/adapt.hpp"
 #include "thixis/models/parabolic_membranes.hpp"
 
@@ -75,23 +76,62 @@ class ParabolicEvolution final : public Evolution {
     }
     step_ = step;
     begun_ = open_ = true;
+    estimated_ = false;
   }
 
   complementarity::Problem& problem() override { return on_mesh_->problem(); }
 
-  complementarity::Estimate estimate(const Vector&) override {
-    throw core::InputError("stopping/estimate: this version has no error bound for parabolic membranes; write false, or leave it out.");
+  complementarity::Estimate estimate(const Vector& X) override {
+    if (!bound_) {
+      const core::Region region("estimate set-up");
+      auto contact = on_mesh_->contact_problem();
+      contact.time = step_.end;
+      bound_ = std::make_unique<equilibration::StepBound>(on_mesh_->polynomials(), contact, hierarchy_,
+                                                          static_cast<int>(hierarchy_.levels.size()) - 1);
+      if (!restored_bound_.empty()) bound_->restore(restored_bound_);
+    }
+    if (!estimated_) {
+      if (step_.begin == 0) {
+        bound_->start(0, before_.u, {scene_.initial[0], scene_.initial[1]});
+        bounded_ = true;
+      }
+      bound_->begin(step_.begin, step_.end, before_.u);
+      estimated_ = true;
+    }
+    const MembraneIterate seen(*on_mesh_, X);
+    return (*bound_)(seen.iterate);
   }
-  CellEstimates cell_estimates() const override { return {}; }
+  CellEstimates cell_estimates() const override {
+    if (!bound_) return {};
+    const auto copy = [](const mesh::View<double*>& values) {
+      const auto host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), values);
+      return std::vector<double>(host.data(), host.data() + host.extent(0));
+    };
+    const auto& parts = bound_->cells();
+    return {copy(parts.discretization), copy(parts.linearization), copy(parts.algebraic)};
+  }
+  std::optional<StepErrors> step_errors() const override {
+    if (!estimated_) return std::nullopt;
+    const auto errors = bound_->errors();
+    return StepErrors{errors.time, errors.space};
+  }
 
   void accept(const Vector& X) override {
     if (scene_.exact) squared_error_ += step_error(at(X));
+    if (estimated_) bound_->accept();
+    else bounded_ = false;
     open_ = false;
   }
 
   std::optional<double> energy_error() const override {
     if (!scene_.exact) return std::nullopt;
     return std::sqrt(squared_error_);
+  }
+
+  /// Nothing before the first step, after one that was not estimated, and on a mesh that has changed.
+  std::optional<complementarity::Estimate> estimate_so_far() const override {
+    if (!bounded_ || !bound_) return std::nullopt;
+    return bound_->so_far();
   }
 
   /// At X^0, and where a run is taken up again, the equations say nothing: the multiplier is judged by its sign alone.
@@ -151,13 +191,20 @@ class ParabolicEvolution final : public Evolution {
   }
 
   EvolutionState save(const Vector& X) const override {
-    return {on_mesh_->save(X), {{"data_time", on_mesh_->time()}, {"squared_energy_error", squared_error_}}};
+    std::map<std::string, double> sums = {{"data_time", on_mesh_->time()}, {"squared_energy_error", squared_error_}, {"bounded", bounded_}};
+    if (bounded_) sums.merge(bound_ ? bound_->sums() : std::map<std::string, double>(restored_bound_));
+    return {on_mesh_->save(X), sums};
   }
   Teuchos::RCP<Vector> restore(const output::StoredCheckpoint& stored) override {
     auto X = on_mesh_->restore(stored);
     on_mesh_->move_to(stored.attribute("data_time"));
     squared_error_ = stored.attribute("squared_energy_error");
-    begun_ = open_ = false;
+    begun_ = open_ = estimated_ = false;
+    bounded_ = stored.attribute("bounded") != 0;
+    restored_bound_.clear();
+    for (const std::string& name : equilibration::StepBound::names_of_sums())
+      if (bounded_) restored_bound_[name] = stored.attribute(name);
+    if (bound_ && bounded_) bound_->restore(restored_bound_);
     return X;
   }
 
@@ -179,7 +226,9 @@ class ParabolicEvolution final : public Evolution {
     on_mesh_->move_to(t);
     areas_ = Teuchos::null;
     weight_ = 0;
-    begun_ = open_ = false;
+    begun_ = open_ = estimated_ = bounded_ = false;
+    bound_ = nullptr;
+    restored_bound_.clear();
     return on_mesh_->joined(on_mesh_->from_coarse(*on_coarse, X));
   }
 
@@ -238,6 +287,10 @@ class ParabolicEvolution final : public Evolution {
   bool open_ = false;   ///< … and it has not been accepted
   Pair before_;         ///< u^{n-1}
   double squared_error_ = 0;
+  std::unique_ptr<equilibration::StepBound> bound_;  ///< made when an estimate is first asked for
+  bool estimated_ = false;                           ///< in the step begun
+  bool bounded_ = false;                             ///< every step so far was estimated
+  std::map<std::string, double> restored_bound_;     ///< sums of a checkpoint
   mutable Teuchos::RCP<Vector> areas_;
 };
 

@@ -144,6 +144,7 @@ TwoPhaseProblem::TwoPhaseProblem(const TwoPhaseOperator& flow, const FlowScales&
 
 void TwoPhaseProblem::begin(FlowStep step) {
   step_ = std::move(step);
+  at_ = {};
   double sum = 0;
   Kokkos::parallel_reduce("thixis::models::reference", Cells(0, flow_.grid().owned_cells),
                           Reference{Around(flow_.grid(), step_.length, scales_), flow_.laws().porosity * flow_.laws().rho_w, step_.before,

@@ -23,7 +23,7 @@ struct FlowScales {
 /// factors of level 0 are exact in one dimension.
 class TwoPhaseProblem final : public complementarity::Problem {
  public:
-  /// Where the equations were linearized last.
+  /// Where the equations of the step were linearized last; X null: nowhere yet.
   struct Linearization {
     Teuchos::RCP<const algebra::Vector> X;
     fv::View<PhaseState*> states;  ///< of all local cells

@@ -30,8 +30,8 @@ struct Lifted {
     const std::array<method::BoundaryValues, 2> boundary = {everywhere(mesh, g1), everywhere(mesh, g2)};
     const ContinuousNodes nodes =
         continuous_nodes(mesh, V->cells(), V->basis(), V->basis().points(), std::vector<bool>(mesh.tags.size(), true));
-    const std::vector<double> held[2] = {boundary_coefficients(*V, nodes, boundary[0].dirichlet),
-                                         boundary_coefficients(*V, nodes, boundary[1].dirichlet)};
+    const std::vector<double> held[2] = {boundary_coefficients(*V, nodes, boundary[0].dirichlet, 0),
+                                         boundary_coefficients(*V, nodes, boundary[1].dirichlet, 0)};
     lift = std::make_unique<BoundaryLift>(*V, nodes, std::array<FieldPtr, 2>{scene::constant(1), scene::constant(2)}, boundary, held, 2);
   }
   mesh::Hierarchy levels;

@@ -28,6 +28,7 @@ class FeasiblePair {
     std::array<scene::FieldPtr, 2> tension;
     std::array<method::BoundaryValues, 2> boundary;
     scene::FieldPtr obstacle;  ///< count = 1
+    double time = 0;           ///< at which the boundary data are taken
   };
   /// Set up once per mesh: the lift of g - g_h, its energy being nearly least (nothing where g is a polynomial of degree p on every face).
   /// Collective; the space must outlive it. Throws InputError where a function is not finite or a tension not positive.
@@ -48,12 +49,54 @@ class FeasiblePair {
   /// `degree` <= 6 in modal coefficients (owned cell, dim P_degree). Overwrites `parts`, which may be empty at first. Gaps that count less
   /// than `small` in a cell, as a part of |||s - u_h|||²_K and of 2 (lambda, s_1 - s_2)_K, are bounded more coarsely. Collective.
   void evaluate(const method::Coefficients (&u)[2], const ConstCellTable& lambda, int degree, Parts& parts, double small = 0) const;
+
+  // -- in time (docs/methods/parabolic_estimates.md) ------------------------------------------------------------------------------
+  /// The pair for the boundary data at another time; what does not depend on them is shared. Collective.
+  std::unique_ptr<FeasiblePair> at(double time) const;
+  double time() const;
+
+  /// Coefficients of s_c: of u itself in conforming spaces, else on nodes of the pair's own. [1] over an obstacle: psi_I.
+  using Continuous = std::array<View<const double*>, 2>;
+  Continuous continuous(const method::Coefficients (&u)[2]) const;
+
+  /// The polynomial part of the way from u_h to s_N, on the owned cells: functions (not densities) in modal coefficients of degree p.
+  struct Way {
+    CellTable averages[2];  ///< u_h - s_c; of length 0 for conforming spaces
+    CellTable closing[2];   ///< s_c - s_N; of length 0 where no gap is negative at a node, on any rank
+    CellTable gap;          ///< Bernstein coefficients of s_N,1 - s_N,2
+  };
+  /// Collective.
+  Way way(const method::Coefficients (&u)[2], const Continuous& s_c) const;
+
+  /// contact(K) = (lambda, s_1 - s_2)_K alone, as `evaluate` has it; cells without a multiplier cost nothing.
+  void contact(const Continuous& s_c, const ConstCellTable& lambda, int degree, const View<double*>& contact, double small = 0) const;
+
+  /// Shares of the membranes in the pointwise move.
+  std::array<double, 2> apart() const;
+  /// |L_alpha - L_alpha of `before`|_K, of L_alpha itself where `before` is null; of length 0: zero. Collective.
+  View<double* [2]> change_of_lift(const FeasiblePair* before) const;
+  /// Bounds on |max(-gap, 0)|_K and, against the pair and the gap at an earlier time, on |max(-gap, 0) - max(-gap_before, 0)|_K. Overwrites
+  /// `size`. `before` null: the former.
+  void change_of_move(const CellTable& gap, const View<double* [2]>& change_of_lift, const FeasiblePair* before,
+                      const CellTable& gap_before, const View<double*>& size) const;
+
+  /// Boundary data that are not affine in time bulge by d = g(t) - (g_before + g_after)/2 in the middle t of a step: the function that has
+  /// the coefficients of d at the nodes of the boundary and is 0 at others.
+  struct Bulge {
+    View<double*> energy;    ///< (owned cell) |||d|||_K; of length 0: d = 0 up to round-off
+    View<double* [2]> size;  ///< (owned cell, alpha) |d_alpha|_K
+    CellTable gap;           ///< (owned cell, dim P_p): modal coefficients of d_1 - d_2
+  };
+  /// Collective.
+  Bulge bulge(const FeasiblePair& before, const FeasiblePair& after) const;
+
   /// |||lift of g - g_h||| over all cells.
   double boundary_energy() const;
   std::size_t bytes() const;  ///< held for the mesh
 
  private:
   struct Impl;
+  explicit FeasiblePair(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;
 };
 

@@ -17,6 +17,7 @@ struct ContactProblem {
   std::array<method::BoundaryValues, 2> boundary;
   scene::FieldPtr obstacle;   ///< count = 1
   scene::FieldPtr interface;  ///< level set of the curves across which data jump; may be null
+  double time = 0;            ///< at which the data are taken
 };
 
 /// An iterate, any.

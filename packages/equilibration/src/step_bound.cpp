@@ -1,0 +1,527 @@
+#include "thixis/equilibration/step_bound.hpp"
+
+#include <cmath>
+
+#include "bound_parts.hpp"
+#include "tables.hpp"
+#include "thixis/algebra/tpetra.hpp"
+#include "thixis/core/error.hpp"
+#include "thixis/equilibration/published_bound.hpp"
+
+namespace thixis::equilibration {
+namespace {
+
+using algebra::Vector;
+using method::Coefficients;
+
+double squared(double x) { return x * x; }
+
+/// Of ∫_0^1 |(1 - theta) a + theta b|² where |a|, |b| are known: exact where one is a multiple of the other.
+double mean_square(double a, double b) { return (a * a + a * b + b * b) / 3; }
+
+/// b(theta) = 4 theta (1 - theta), which is what data that are not affine in time add: ∫ b, ∫ b², ∫ b'² over ]0, 1[.
+constexpr double bulge_mean = 2.0 / 3, bulge_square = 8.0 / 15, bulge_rate = 16.0 / 3;
+
+/// first u + second v.
+Coefficients combine(double first, const Coefficients& u, double second, const Coefficients& v) {
+  const Coefficients sum(Kokkos::view_alloc(Kokkos::WithoutInitializing, "thixis::equilibration::in_time"), u.extent(0));
+  Kokkos::parallel_for(
+      "thixis::equilibration::in_time", Kokkos::RangePolicy<>(0, u.extent(0)),
+      KOKKOS_LAMBDA(std::size_t e) { sum(e) = first * u(e) + second * v(e); });
+  return sum;
+}
+
+/// Densities of (u - before)/tau on the patch cells.
+struct Rate {
+  Kokkos::View<const LocalIndex**, Kokkos::LayoutRight> entries;
+  Coefficients u, before;
+  Matrix modal;  ///< (m, l)
+  Metrics metric;
+  double tau;
+  CellTable rate;  ///< out, overwritten
+  KOKKOS_FUNCTION void operator()(int k) const {
+    const int n = modal.extent_int(0);
+    double c[reference::max_functions];
+    for (int l = 0; l < n; ++l) c[l] = (u(entries(k, l)) - before(entries(k, l))) * (metric(k).det / tau);
+    for (int m = 0; m < n; ++m) {
+      rate(k, m) = 0;
+      for (int l = 0; l < n; ++l) rate(k, m) += modal(m, l) * c[l];
+    }
+  }
+};
+
+/// ∫ |f(t) - f(end)|² over the step and the owned cells: by Gauss' rule with three points in time, exact where f is of degree 2.
+double change_of_force(const method::PolynomialSpace& space, const scene::Field& force, double begin, double end) {
+  constexpr double place[3] = {0.1127016653792583, 0.5, 0.8872983346207417}, weight[3] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
+  const auto& quadrature = space.quadrature();
+  const LocalIndex owned = space.mesh().owned_cells;
+  const auto metric = on_host(metrics(space.mesh(), space.cells()));
+  const View<double*> at_end("thixis::equilibration::force_at_end", quadrature.largest_block),
+      between("thixis::equilibration::force_between", quadrature.largest_block);
+  double sum = 0;
+  method::for_each_block(quadrature, [&](const method::QuadratureBlock& block) {
+    if (block.first >= owned) return;
+    method::evaluate(force, end, block, at_end);
+    const auto offset = on_host(block.offset);
+    const auto weights = on_host(block.weight);
+    const auto last = on_host(at_end);
+    for (int g = 0; g < 3; ++g) {
+      method::evaluate(force, begin + place[g] * (end - begin), block, between);
+      const auto now = on_host(between);
+      for (LocalIndex c = 0; c < block.cells && block.first + c < owned; ++c)
+        for (int i = offset(c); i < offset(c + 1); ++i) sum += weight[g] * weights(i) * squared(now(i) - last(i));
+    }
+  });
+  return (end - begin) * sum;
+}
+
+bool steady(const std::vector<scene::FieldPtr>& fields) {
+  for (const auto& field : fields)
+    if (field && !field->steady()) return false;
+  return true;
+}
+
+}  // namespace
+
+struct StepBound::Impl : BoundParts {
+  std::optional<double> friedrichs;
+  bool steady_force = true, steady_boundary = true;
+  double least[2] = {1, 1};  ///< tension of all
+  Matrix modal;              ///< (m, l): modal coefficients of the basis functions
+  int functions;
+
+  // the step
+  double first = 0, last = 0;
+  Coefficients before[2];
+  std::shared_ptr<const FeasiblePair> feasible_before;
+  FeasiblePair::Continuous s_c_before;
+  FeasiblePair::Way way_before;
+  CellTable moved_before[2];  ///< (u_h - s_N)(t_{n-1}), functions of degree p; of length 0: zero
+  CellTable sigma_before[2];  ///< conforming spaces: its flux; of length 0: zero
+  FeasiblePair::Parts parts_before;
+  FeasiblePair::Bulge bulge;
+  View<double* [2]> change_of_lift;
+  double force_change[2] = {0, 0};  ///< ∫ |f(t) - f(t_n)|²
+
+  // the last iterate
+  Iterate iterate;
+  FeasiblePair::Way way;
+  CellTable rate[2], remaining, extra;
+  bool has_cut_off[2] = {false, false};
+  View<double*> change[2], contact_before, move_change;
+  struct Square {
+    double energy = 0, remainder = 0;  ///< G², and R: the norm in L1(L2) of what no flux balances
+    double bound() const { return remainder + std::sqrt(remainder * remainder + energy); }
+  } step;
+  complementarity::Estimate eta;
+  Errors errors_of_step;
+
+  // since the start
+  Square all;
+  double initial = 0, disc2 = 0, lin2 = 0, alg2 = 0;
+
+  Impl(const method::PolynomialSpace& of, const ContactProblem& contact, const mesh::Hierarchy& hierarchy, int level,
+       std::optional<double> constant)
+      : BoundParts(of, contact, hierarchy, level), friedrichs(constant), functions(of.basis().size()) {
+    if (!patches && q == space.basis().degree())
+      throw core::InputError("scene/model: there is no bound in time for this method; write fem or hho under method/name.");
+    bool all_held = true;
+    for (const bool is : held) all_held = all_held && is;
+    if (!friedrichs && all_held) friedrichs = friedrichs_of_box(mesh);
+    for (int alpha = 0; alpha < problem.count; ++alpha) {
+      steady_force = steady_force && problem.force[alpha]->steady();
+      steady_boundary = steady_boundary && steady(problem.boundary[alpha].dirichlet);
+      if (!problem.tension[alpha]->steady() || !steady(problem.boundary[alpha].neumann))
+        throw core::InputError("scene/data: the bound in time needs tensions and tractions that do not depend on t.");
+      double lowest = 1e300;
+      for (const double mu : membrane[alpha].least_tension) lowest = std::min(lowest, mu);
+      least[alpha] = comm.min(lowest);
+      rate[alpha] = CellTable("thixis::equilibration::rate", patch_cells, functions);
+      change[alpha] = View<double*>("thixis::equilibration::change_in_step", owned);
+    }
+    const reference::Modal orthonormal(space.basis().degree());
+    modal = matrix("thixis::equilibration::to_modal", functions, functions, to_modal(space.basis(), orthonormal));
+    remaining = CellTable("thixis::equilibration::remaining", owned, functions);
+    extra = CellTable("thixis::equilibration::extra_flux", owned, flux);
+    contact_before = View<double*>("thixis::equilibration::contact_before", owned);
+    move_change = View<double*>("thixis::equilibration::move_change", owned);
+  }
+
+  double tau() const { return last - first; }
+
+  std::shared_ptr<const FeasiblePair> pair_at(double time) const {
+    if (steady_boundary || feasible->time() == time) return feasible;
+    return feasible->at(time);
+  }
+
+  /// `remaining`(K, ·) = factor det (a + b) for the tables that are not of length 0; false where both are.
+  bool density_of(double factor, const CellTable& a, double other, const CellTable& b) const {
+    if (a.extent(0) == 0 && b.extent(0) == 0) return false;
+    const auto det = metric;
+    const CellTable out = remaining, first_table = a, second_table = b;
+    Kokkos::parallel_for(
+        "thixis::equilibration::density_of_way", Kokkos::RangePolicy<>(0, owned), KOKKOS_LAMBDA(int K) {
+          for (int m = 0; m < out.extent_int(1); ++m) {
+            double sum = 0;
+            if (first_table.extent(0) > 0) sum += factor * first_table(K, m);
+            if (second_table.extent(0) > 0) sum += other * second_table(K, m);
+            out(K, m) = det(K).det * sum;
+          }
+        });
+    return true;
+  }
+
+  void add(const CellTable& sigma, const CellTable& to) const {
+    Kokkos::parallel_for(
+        "thixis::equilibration::add_flux", Kokkos::RangePolicy<>(0, owned), KOKKOS_LAMBDA(int K) {
+          for (int i = 0; i < to.extent_int(1); ++i) to(K, i) += sigma(K, i);
+        });
+  }
+
+  void equilibrate(int alpha, const Vector& cut_off);
+  /// |w + sigma| at time theta in the step: 0 at its begin, 1 at its end.
+  void measure_at(double theta, int alpha) {
+    const Coefficients u = theta == 1 ? iterate.u[alpha] : combine(theta, iterate.u[alpha], 1 - theta, before[alpha]);
+    (*membrane[alpha].stress)(u, membrane[alpha].w);
+    measure(u, alpha);
+  }
+  double oscillation_of_rate(int alpha, LocalIndex K) const;
+  void sum_up();
+};
+
+/// sigma_disc + sigma_lin + sigma_alg in equilibrium with f(t_n) - ∂_t s_N and lambda^, and |mu^{1/2} grad (u_h^n - u_h^{n-1})|_K.
+void StepBound::Impl::equilibrate(int alpha, const Vector& cut_off) {
+  Membrane& m = membrane[alpha];
+  lift_residual(*iterate.residual[alpha], m.r_alg, m.sigma_alg, m.has_alg);
+  represent(cut_off, m.r_lin, has_cut_off[alpha]);
+  if (density_of(1 / tau(), way.closing[alpha], 0, {})) {
+    const CellTable sum = remaining, r_lin = m.r_lin;
+    Kokkos::parallel_for(
+        "thixis::equilibration::add_cut_off", Kokkos::RangePolicy<>(0, owned), KOKKOS_LAMBDA(int K) {
+          for (int i = 0; i < r_lin.extent_int(1); ++i) sum(K, i) += r_lin(K, i);
+        });
+    lift(sum, m.sigma_lin);
+    m.has_lin = true;
+  } else {
+    m.has_lin = has_cut_off[alpha];
+    if (m.has_lin) lift(m.r_lin, m.sigma_lin);
+    else Kokkos::deep_copy(m.sigma_lin, 0);
+  }
+
+  Kokkos::parallel_for("thixis::equilibration::rate", Kokkos::RangePolicy<>(0, patch_cells),
+                       Rate{space.coefficients().element_entries, iterate.u[alpha], before[alpha], modal, metric, tau(), rate[alpha]});
+  (*m.stress)(iterate.u[alpha], m.w);
+  discretization_flux(iterate, alpha, rate[alpha]);
+  if (patches) {
+    if (sigma_before[alpha].extent(0) > 0) add(sigma_before[alpha], m.sigma_disc);
+  } else if (density_of(1 / tau(), way.averages[alpha], -1 / tau(), moved_before[alpha])) {
+    lift(remaining, extra);
+    add(extra, m.sigma_disc);
+  }
+
+  const Coefficients increment = combine(1, iterate.u[alpha], -1, before[alpha]);
+  (*m.stress)(increment, m.w);
+  m.stress->norms(increment, m.w, {}, m.norms);
+  Kokkos::deep_copy(change[alpha], m.norms.disc);
+  measure_at(0.5, alpha);
+}
+
+/// (h_K/j) mu^{-1/2} |(1 - Pi_q) ∂_t s_N|_K: 0 in conforming spaces, whose fluxes are of degree p.
+double StepBound::Impl::oscillation_of_rate(int alpha, LocalIndex K) const {
+  double square = 0;
+  for (int m = n; m < functions; ++m) {
+    double value = rate[alpha](K, m) / metric(K).det;
+    if (way.averages[alpha].extent(0) > 0) value -= way.averages[alpha](K, m) / tau();
+    if (way.closing[alpha].extent(0) > 0) value -= way.closing[alpha](K, m) / tau();
+    if (moved_before[alpha].extent(0) > 0) value += moved_before[alpha](K, m) / tau();
+    square += value * value;
+  }
+  return poincare * h(K) * std::sqrt(square * metric(K).det / membrane[alpha].least_tension[K]);
+}
+
+void StepBound::Impl::sum_up() {
+  enum {
+    of_flux,
+    of_disc,
+    at_end,
+    of_change,
+    of_alg,
+    of_lin,
+    of_pair,
+    of_rest,
+    rest_at_end,
+    of_nodes,
+    contact,
+    contact_then,
+    contact_nodes,
+    of_bulge,
+    moved,
+    lift_1,
+    lift_2,
+    bulge_1,
+    bulge_2,
+    force_1,
+    force_2,
+    count
+  };
+  std::vector<double> sum(count, 0.0);
+  std::vector<double> disc_K(owned, 0.0), lin_K(owned, 0.0), alg_K(owned, 0.0);
+  const bool bulges = bulge.energy.extent(0) > 0, lift_changes = change_of_lift.extent(0) > 0;
+  const auto apart = feasible->apart();
+  const double length = tau();
+  for (int alpha = 0; alpha < problem.count; ++alpha) {
+    const Membrane& m = membrane[alpha];
+    for (LocalIndex K = 0; K < owned; ++K) {
+      const double of_lambda = patches ? 0 : poincare * h(K) * multiplier_rest(K) / std::sqrt(m.least_tension[K]);
+      const double oscillation =
+          m.data.sharp_oscillation(K) + of_lambda + m.data.traction_oscillation(K) + (patches ? 0 : oscillation_of_rate(alpha, K));
+      // ∫_0^1 |a + (theta - 1) b|² = |a - b/2|² + |b|²/12
+      const double b2 = squared(change[alpha](K)) / 12;
+      sum[of_flux] += squared(std::sqrt(squared(m.norms.whole(K)) + b2) + oscillation);
+      disc_K[K] += squared(std::sqrt(squared(m.norms.disc(K)) + b2) + oscillation);
+      sum[of_change] += 4 * b2;
+      alg_K[K] += squared(m.norms.alg(K));
+      lin_K[K] += squared(m.norms.lin(K));
+    }
+    if (alpha == 0) sum[force_1] = force_change[0];
+    else sum[force_2] = force_change[1];
+  }
+  for (LocalIndex K = 0; K < owned; ++K) {
+    const double more = bulges ? std::sqrt(bulge_square) * bulge.energy(K) : 0;
+    const double pair = squared(std::sqrt(mean_square(parts_before.whole(K), parts.whole(K))) + more),
+                 rest = squared(std::sqrt(mean_square(parts_before.whole(K), parts.rest(K))) + more),
+                 nodes = squared(parts.at_nodes(K)) / 3;
+    double of_bulge_K = 0;
+    for (int m = 0; bulges && m < std::min(n, functions); ++m) of_bulge_K += lambda(K, m) * bulge.gap(K, m);
+    sum[of_disc] += disc_K[K];
+    sum[of_alg] += alg_K[K];
+    sum[of_lin] += lin_K[K];
+    sum[of_pair] += pair;
+    sum[of_rest] += rest;
+    sum[rest_at_end] += squared(parts.rest(K));
+    sum[of_nodes] += nodes;
+    sum[contact] += parts.contact(K);
+    sum[contact_then] += contact_before(K);
+    sum[contact_nodes] += contact_lin(K);
+    sum[of_bulge] += of_bulge_K;
+    sum[moved] += squared(move_change(K));
+    for (int alpha = 0; alpha < problem.count; ++alpha) {
+      if (lift_changes) sum[lift_1 + alpha] += squared(change_of_lift(K, alpha));
+      if (bulges) sum[bulge_1 + alpha] += squared(bulge.size(K, alpha));
+    }
+    const double together = parts.contact(K) + contact_before(K) + 2 * bulge_mean * of_bulge_K;
+    double unbalanced = 0;
+    for (int alpha = 0; friedrichs && alpha < problem.count; ++alpha)
+      unbalanced += squared(*friedrichs * apart[alpha] * move_change(K)) / least[alpha];
+    cells.discretization(K) = std::sqrt(length * (disc_K[K] + rest + std::abs(together - contact_lin(K))) + unbalanced / length);
+    cells.linearization(K) = std::sqrt(length * (lin_K[K] + nodes + contact_lin(K)));
+    cells.algebraic(K) = std::sqrt(length * alg_K[K]);
+  }
+  comm.sum(sum);
+
+  double remainder2 = 0, balanced2 = 0, of_time2 = 0;
+  for (int alpha = 0; alpha < problem.count; ++alpha) {
+    const double of_force = std::sqrt(sum[force_1 + alpha]);
+    const double rho =
+        of_force + (std::sqrt(sum[lift_1 + alpha]) + apart[alpha] * std::sqrt(sum[moved]) + std::sqrt(bulge_rate * sum[bulge_1 + alpha])) /
+                       std::sqrt(length);
+    const double factor = friedrichs ? *friedrichs * *friedrichs / least[alpha] : 0;
+    balanced2 += factor * squared(rho);
+    of_time2 += (friedrichs ? factor : 4 * length) * squared(of_force);
+    if (!friedrichs) remainder2 += length * squared(rho);
+  }
+  const double N = std::sqrt(balanced2), R = std::sqrt(remainder2);
+  const double together = std::max(0.0, sum[contact] + sum[contact_then] + 2 * bulge_mean * sum[of_bulge]);
+  step.energy = squared(std::sqrt(length * sum[of_flux]) + N) + length * (sum[of_pair] + together);
+  step.remainder = R;
+  eta = {};
+  eta.total = step.bound();
+  eta.discretization = std::sqrt(length * sum[of_disc]) + N + 2 * R + std::sqrt(length * sum[of_rest]) +
+                       std::sqrt(length * std::abs(together - sum[contact_nodes]));
+  eta.linearization = std::sqrt(length * sum[of_lin]) + std::sqrt(length * sum[of_nodes]) + std::sqrt(length * sum[contact_nodes]);
+  eta.algebraic = std::sqrt(length * sum[of_alg]);
+  find_worst_cells(eta);
+  errors_of_step.time = std::sqrt(length * sum[of_change]) + std::sqrt(of_time2) + std::sqrt(length * std::max(0.0, sum[contact_then]));
+  errors_of_step.space = std::max(0.0, N + 2 * R - std::sqrt(of_time2)) + std::sqrt(length * sum[rest_at_end]) +
+                         std::sqrt(length * std::abs(sum[contact] - sum[contact_nodes]));
+}
+
+StepBound::StepBound(const method::PolynomialSpace& space, const ContactProblem& problem, const mesh::Hierarchy& hierarchy, int level,
+                     std::optional<double> friedrichs)
+    : impl_(std::make_unique<Impl>(space, problem, hierarchy, level, friedrichs)) {}
+StepBound::~StepBound() = default;
+
+/// |u_0 - s| <= |u_0 - u_h| + |u_h - s_N| + |L| + |what is moved apart|.
+void StepBound::start(double time, const Coefficients (&u)[2], const std::array<scene::FieldPtr, 2>& initial) {
+  Impl& in = *impl_;
+  in.feasible = in.pair_at(time);
+  const auto way = in.feasible->way(u, in.feasible->continuous(u));
+  const auto lift = in.feasible->change_of_lift(nullptr);
+  const auto apart = in.feasible->apart();
+  in.feasible->change_of_move(way.gap, {}, nullptr, {}, in.move_change);
+  in.initial = 0;
+  for (int alpha = 0; alpha < in.problem.count; ++alpha) {
+    double way2 = 0, rest2 = 0;
+    for (LocalIndex K = 0; K < in.owned; ++K) {
+      for (int m = 0; m < in.functions; ++m) {
+        double value = 0;
+        if (way.averages[alpha].extent(0) > 0) value += way.averages[alpha](K, m);
+        if (way.closing[alpha].extent(0) > 0) value += way.closing[alpha](K, m);
+        way2 += in.metric(K).det * value * value;
+      }
+      rest2 += squared(apart[alpha] * in.move_change(K) + (lift.extent(0) > 0 ? lift(K, alpha) : 0));
+    }
+    const double of_values = initial[alpha] ? std::sqrt(in.space.l2_error(u[alpha], *initial[alpha], time)) : 0;
+    in.initial += squared(of_values + std::sqrt(in.comm.sum(way2)) + std::sqrt(in.comm.sum(rest2)));
+  }
+  in.all = {in.initial, 0};
+  in.disc2 = in.initial;
+  in.lin2 = in.alg2 = 0;
+}
+
+void StepBound::begin(double begin, double end, const Coefficients (&before)[2]) {
+  Impl& in = *impl_;
+  in.first = begin;
+  in.last = end;
+  for (int alpha = 0; alpha < in.problem.count; ++alpha) in.before[alpha] = before[alpha];
+  // the pair at the begin: made from `before` alone, so that a run that goes on from a checkpoint makes the same
+  in.feasible_before = in.pair_at(begin);
+  in.feasible = in.feasible_before;
+  in.feasible = in.pair_at(end);
+  const FeasiblePair& then = *in.feasible_before;
+  in.s_c_before = then.continuous(before);
+  in.way_before = then.way(before, in.s_c_before);
+  then.evaluate(before, CellTable("thixis::equilibration::no_multiplier", in.owned, 0), in.q, in.parts_before);
+  for (int alpha = 0; alpha < in.problem.count; ++alpha) {
+    in.moved_before[alpha] = in.sigma_before[alpha] = {};
+    const auto &averages = in.way_before.averages[alpha], &closing = in.way_before.closing[alpha];
+    if (averages.extent(0) > 0 && closing.extent(0) > 0) {
+      Kokkos::parallel_for(
+          "thixis::equilibration::moved_before", Kokkos::RangePolicy<>(0, in.owned), KOKKOS_LAMBDA(int K) {
+            for (int m = 0; m < closing.extent_int(1); ++m) averages(K, m) += closing(K, m);
+          });
+    }
+    in.moved_before[alpha] = averages.extent(0) > 0 ? averages : closing;
+    if (in.patches && in.density_of(-1 / in.tau(), in.moved_before[alpha], 0, {})) {
+      in.sigma_before[alpha] = CellTable("thixis::equilibration::sigma_before", in.owned, in.flux);
+      in.lift(in.remaining, in.sigma_before[alpha]);
+    }
+  }
+  in.change_of_lift = in.feasible->change_of_lift(&then);
+  in.bulge = {};
+  if (!in.steady_boundary) in.bulge = in.feasible->at(0.5 * (begin + end))->bulge(then, *in.feasible);
+  if (in.steady_force) return;
+  if (in.problem.time != end) in.set_sources(end);
+  in.comm.together([&] {
+    for (int alpha = 0; alpha < in.problem.count; ++alpha)
+      in.force_change[alpha] = in.problem.force[alpha]->steady() ? 0 : change_of_force(in.space, *in.problem.force[alpha], begin, end);
+  });
+}
+
+complementarity::Estimate StepBound::operator()(const Iterate& iterate) {
+  Impl& in = *impl_;
+  in.iterate = iterate;
+  Vector above(in.space.points()), cut_off(in.space.map());
+  in.fit_multiplier(iterate, above, cut_off);
+  in.way = in.feasible->way(iterate.u, in.feasible->continuous(iterate.u));
+  for (int alpha = 0; alpha < in.problem.count; ++alpha) {
+    in.equilibrate(alpha, cut_off);  // R_lin = (-1)^alpha D min(X3, 0)
+    cut_off.scale(-1);
+  }
+  const double small = negligible * in.mean_flux_term();
+  in.feasible->evaluate(iterate.u, in.lambda, in.q, in.parts, small);
+  in.feasible_before->contact(in.s_c_before, in.lambda, in.q, in.contact_before, small);
+  in.feasible->change_of_move(in.way.gap, in.change_of_lift, in.feasible_before.get(), in.way_before.gap, in.move_change);
+  in.contact_at_points(above, *iterate.gap);
+  Kokkos::fence();
+  in.sum_up();
+  return in.eta;
+}
+
+const GuaranteedBound::CellParts& StepBound::cells() const { return impl_->cells; }
+
+/// sum_up() has all of it but the flux at the end of the step.
+StepBound::Errors StepBound::errors() {
+  Impl& in = *impl_;
+  double square = 0;
+  for (int alpha = 0; alpha < in.problem.count; ++alpha) {
+    in.measure_at(1, alpha);
+    const auto& m = in.membrane[alpha];
+    for (LocalIndex K = 0; K < in.owned; ++K) {
+      const double of_lambda = in.patches ? 0 : poincare * in.h(K) * in.multiplier_rest(K) / std::sqrt(m.least_tension[K]);
+      square += squared(m.norms.disc(K) + m.data.sharp_oscillation(K) + of_lambda + m.data.traction_oscillation(K) +
+                        (in.patches ? 0 : in.oscillation_of_rate(alpha, K)));
+    }
+  }
+  Errors errors = in.errors_of_step;
+  errors.space += std::sqrt(in.tau() * in.comm.sum(square));
+  return errors;
+}
+
+void StepBound::accept() {
+  Impl& in = *impl_;
+  in.all.energy += in.step.energy;
+  in.all.remainder += in.step.remainder;
+  in.disc2 += squared(in.eta.discretization - 2 * in.step.remainder);
+  in.lin2 += squared(in.eta.linearization);
+  in.alg2 += squared(in.eta.algebraic);
+}
+
+complementarity::Estimate StepBound::so_far() const {
+  const Impl& in = *impl_;
+  complementarity::Estimate eta;
+  eta.total = in.all.bound();
+  eta.discretization = std::sqrt(in.disc2) + 2 * in.all.remainder;
+  eta.linearization = std::sqrt(in.lin2);
+  eta.algebraic = std::sqrt(in.alg2);
+  return eta;
+}
+
+const std::vector<std::string>& StepBound::names_of_sums() {
+  static const std::vector<std::string> names = {"bound", "bound_remainder", "bound_discretization", "bound_linearization",
+                                                 "bound_algebraic"};
+  return names;
+}
+
+std::map<std::string, double> StepBound::sums() const {
+  const Impl& in = *impl_;
+  const double values[] = {in.all.energy, in.all.remainder, in.disc2, in.lin2, in.alg2};
+  std::map<std::string, double> sums;
+  for (std::size_t i = 0; i < names_of_sums().size(); ++i) sums[names_of_sums()[i]] = values[i];
+  return sums;
+}
+
+void StepBound::restore(const std::map<std::string, double>& sums) {
+  Impl& in = *impl_;
+  double* const values[] = {&in.all.energy, &in.all.remainder, &in.disc2, &in.lin2, &in.alg2};
+  for (std::size_t i = 0; i < names_of_sums().size(); ++i) *values[i] = sums.at(names_of_sums()[i]);
+}
+
+GuaranteedBound::Fluxes StepBound::fluxes(int alpha) const {
+  const Impl& in = *impl_;
+  const auto& m = in.membrane[alpha];
+  const CellTable density("thixis::equilibration::density", in.owned, in.n), lin("thixis::equilibration::residual_lin", in.owned, in.n);
+  const double sign = alpha == 0 ? 1 : -1;
+  const CellTable lambda = in.patches ? in.lambda : in.positive;
+  for (LocalIndex K = 0; K < in.owned; ++K)
+    for (int k = 0; k < in.n; ++k) {
+      const auto part = [&](const CellTable& way) { return way.extent(0) > 0 ? in.metric(K).det * way(K, k) / in.tau() : 0; };
+      density(K, k) = m.data.force(K, k) + sign * lambda(K, k) - in.rate[alpha](K, k) + part(in.way.averages[alpha]) +
+                      part(in.way.closing[alpha]) - part(in.moved_before[alpha]);
+      lin(K, k) = m.r_lin(K, k) + part(in.way.closing[alpha]);
+    }
+  return {m.sigma_disc, m.sigma_lin, m.sigma_alg, density, lin, m.r_alg};
+}
+
+int StepBound::flux_degree() const { return impl_->q; }
+
+std::size_t StepBound::bytes() const {
+  const Impl& in = *impl_;
+  std::size_t tables = in.remaining.size() + in.extra.size() + in.way.gap.size() + in.way_before.gap.size() + 6 * in.owned;
+  for (int alpha = 0; alpha < in.problem.count; ++alpha)
+    tables += in.rate[alpha].size() + in.way.averages[alpha].size() + in.way.closing[alpha].size() + in.moved_before[alpha].size() +
+              in.sigma_before[alpha].size() + in.before[alpha].size();
+  return in.BoundParts::bytes() + sizeof(double) * tables;
+}
+
+}  // namespace thixis::equilibration
