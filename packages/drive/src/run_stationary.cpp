@@ -2,10 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <Teuchos_RCP.hpp>
+
 #include <algorithm>
 
 #include "checkpoint.hpp"
 #include "follow.hpp"
+#include "thixis/algebra/tpetra.hpp"
 #include "thixis/core/log.hpp"
 #include "thixis/core/timer.hpp"
 

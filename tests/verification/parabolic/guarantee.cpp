@@ -50,7 +50,8 @@ Bounded bounded(drive::RunParams params, int steps, double end, Ending ending) {
     const algebra::Vector before(*X, Teuchos::Copy);
     evolution->begin({end * (n - 1) / steps, end * n / steps}, before);
     const Estimate first = evolution->estimate(*X);
-    const auto report = complementarity::newton(evolution->problem(), *X, params.newton, params.stopping, params.linear.check_every, {}, {});
+    const auto report =
+        complementarity::newton(evolution->problem(), *X, params.newton, params.stopping, params.linear.check_every, {}, {});
     if (ending == Ending::disturbed) disturb(*X, 1e-3);
     const Estimate eta = evolution->estimate(*X);
     result.split = result.split && holds(first) && holds(eta);
@@ -71,9 +72,10 @@ Bounded bounded(drive::RunParams params, int steps, double end, Ending ending) {
 
 void show(const std::string& what, const Bounded& b) {
   if (!core::Comm().root()) return;
-  std::cout << std::setprecision(4) << what << ": error " << b.error << ", bound " << b.so_far.total << ", index " << b.so_far.total / b.error
-            << " (least " << b.worst << "), disc " << b.so_far.discretization << " lin " << b.so_far.linearization << " alg "
-            << b.so_far.algebraic << ", time " << b.sums.time << " space " << b.sums.space << std::endl;
+  std::cout << std::setprecision(4) << what << ": error " << b.error << ", bound " << b.so_far.total << ", index "
+            << b.so_far.total / b.error << " (least " << b.worst << "), disc " << b.so_far.discretization << " lin "
+            << b.so_far.linearization << " alg " << b.so_far.algebraic << ", time " << b.sums.time << " space " << b.sums.space
+            << std::endl;
 }
 
 std::string name_of(MethodName method, int degree) { return method::to_text(method) + " P" + std::to_string(degree); }
