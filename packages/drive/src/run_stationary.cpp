@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Teuchos_RCP.hpp>
-
 #include <algorithm>
 
 #include "checkpoint.hpp"
