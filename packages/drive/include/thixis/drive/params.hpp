@@ -38,8 +38,8 @@ double seconds_in(TimeUnit unit);
 /// Block `time` of the deck: backward Euler from 0 to the end. All times are in its unit, also t in expressions and rates of data.
 struct TimeParams {
   TimeUnit unit = TimeUnit::none;
-  double step = 0;  ///< length of the steps; of the first one where they are controlled
-  double end = 0;
+  double step = 1;  ///< length of the steps; of the first one where they are controlled
+  double end = 1;
   bool adaptive = false;           ///< the time part of the estimate controls the steps
   std::vector<double> also;        ///< further times at which a step ends
   std::optional<double> smallest;  ///< a step that has been cut below it ends the run; not given: step / 2^20
