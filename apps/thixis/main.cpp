@@ -119,7 +119,7 @@ core::ExitCode dispatch(int argc, char** argv, const core::Comm& comm) {
       "  thixis describe newton                                    every parameter of a block\n"
       "  thixis describe --format xml > new.xml                    a deck to start from\n\n"
       "Exit codes: 0 done, every 'expect' holds; 1 internal error; 2 command line or deck; 3 not converged;\n"
-      "4 accuracy target or an 'expect' missed; 5 input or output."};
+      "4 accuracy target or an 'expect' missed; 5 input or output; 6 told to end by a signal, with a checkpoint to go on from."};
   app.name("thixis");
   app.set_version_flag("--version", version_text());
   app.require_subcommand(1);

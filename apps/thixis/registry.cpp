@@ -45,13 +45,6 @@ std::array<scene::FieldPtr, 3> initial_fields(const drive::RunParams& params) {
   return {one ? field("u", initial.u) : field("u1", initial.u1), field("u2", initial.u2), field("lambda", initial.lambda)};
 }
 
-/// A step of a scene in time begins with the one before.
-void refuse_initial(const drive::RunParams& params) {
-  const auto& initial = params.newton.initial;
-  if (initial.u || initial.u1 || initial.u2 || initial.lambda)
-    throw core::InputError("newton/initial: every step in time begins with the one before; drop it, or give scene/data/initial.");
-}
-
 }  // namespace
 
 std::unique_ptr<models::Model> make_model(const drive::RunParams& params) {
@@ -63,7 +56,6 @@ std::unique_ptr<models::Model> make_model(const drive::RunParams& params) {
       return models::membranes(scene::membrane_scene(params.scene), make_space, params.method, params.linear, initial_fields(params),
                                check_mesh);
     case scene::Model::parabolic_membranes:
-      refuse_initial(params);
       return models::parabolic_membranes(scene::membrane_scene(params.scene), make_space, params.method, params.linear, check_mesh);
     default:
       throw core::InputError("scene/model: this version serves membranes, obstacle and parabolic membranes only; write one of them.");

@@ -33,21 +33,24 @@ output::CheckpointBlock block_of(int level, const std::vector<GlobalIndex>& mark
 
 }  // namespace
 
-CheckpointFile::CheckpointFile(std::string path, const RunParams& params, const core::Deck& deck, const mesh::Hierarchy& hierarchy)
-    : path_(std::move(path)), hierarchy_(hierarchy) {
-  // a restart may be called from another folder
+output::Checkpoint checkpoint_frame(const RunParams& params, const core::Deck& deck) {
   RunParams as_run = params;
   as_run.output.directory = absolute(params.output.directory);
-  frame_.deck = core::to_xml(RunParams::schema(), as_run);
-  frame_.folder = absolute(deck.folder());
+  output::Checkpoint frame;
+  frame.deck = core::to_xml(RunParams::schema(), as_run);
+  frame.folder = absolute(deck.folder());
+  return frame;
 }
 
-void CheckpointFile::remove(const core::Comm& comm) const {
+void remove_file(const std::string& path, const core::Comm& comm) {
   comm.on_root([&] {
     std::error_code absent;
-    fs::remove(path_, absent);
+    fs::remove(path, absent);
   });
 }
+
+CheckpointFile::CheckpointFile(std::string path, const RunParams& params, const core::Deck& deck, const mesh::Hierarchy& hierarchy)
+    : path_(std::move(path)), frame_(checkpoint_frame(params, deck)), hierarchy_(hierarchy) {}
 
 bool CheckpointFile::write(const Position& at, const models::Discretization& discretization, const algebra::Vector& X,
                            GlobalIndex history_rows, double seconds) const {

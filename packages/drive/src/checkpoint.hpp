@@ -7,14 +7,17 @@
 
 namespace thixis::drive {
 
-/// The file `checkpoint.h5` of a run.
+/// Deck and folder of a checkpoint: the deck as run, so that a restart may be called from another folder.
+output::Checkpoint checkpoint_frame(const RunParams& params, const core::Deck& deck);
+/// Removes a file that an older run has left. Collective.
+void remove_file(const std::string& path, const core::Comm& comm);
+
+/// The file `checkpoint.h5` of a stationary run.
 class CheckpointFile {
  public:
   CheckpointFile(std::string path, const RunParams& params, const core::Deck& deck, const mesh::Hierarchy& hierarchy);
 
   const std::string& path() const { return path_; }
-  /// Removes what an older run has left. Collective.
-  void remove(const core::Comm& comm) const;
   /// Remembers that the mesh of `level` came from refining these cells of the one before: no deck can say that.
   void refined(int level, const std::vector<GlobalIndex>& marked) { marked_[level] = marked; }
   /// Writes an iterate; one that is not finite is not worth it: returns false and leaves the file as it is. `history_rows`, `seconds`:

@@ -1,10 +1,20 @@
 #pragma once
+#include "thixis/drive/params.hpp"
 #include "thixis/drive/stationary.hpp"
 
 namespace thixis::drive {
 
-/// The expectations that the outcome misses, a clause each: "energy error 2.1e-03 is above 2.0e-03". Where nothing was to be solved only
-/// the counts are judged.
-std::vector<std::string> missed(const ExpectParams& expect, const Outcome& outcome, long long cells);
+/// What a run has found, as far as `expect` can judge it; what is not known is empty.
+struct Found {
+  bool solved = true;  ///< false: nothing was to be solved, only the counts are judged
+  std::optional<double> energy_error, kkt, bound, effectivity;
+  std::optional<int> newton_iterations, newton_finest, linear_iterations, steps, retries;
+  std::optional<double> water_balance, hydrogen_balance, front;
+  GlobalIndex unknowns = 0, cells = 0;
+};
+Found found(const Outcome& outcome);
+
+/// The expectations that are missed, a clause each: "energy error 2.1e-03 is above 2.0e-03".
+std::vector<std::string> missed(const ExpectParams& expect, const Found& found);
 
 }  // namespace thixis::drive

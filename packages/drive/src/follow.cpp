@@ -2,20 +2,11 @@
 
 #include <fmt/format.h>
 
+#include "results.hpp"
 #include "thixis/core/log.hpp"
 
 namespace thixis::drive {
 namespace log = core::log;
-
-namespace {
-
-/// The last columns of the table: eta_disc, eta_lin, eta_alg, bound.
-std::string columns(const std::optional<complementarity::Estimate>& eta) {
-  if (!eta) return "";
-  return fmt::format("{:>12.3e}{:>12.3e}{:>12.3e}{:>12.3e}", eta->discretization, eta->linearization, eta->algebraic, eta->total);
-}
-
-}  // namespace
 
 Observer Follow::observer() {
   Observer observer;
@@ -43,19 +34,19 @@ bool Follow::save(const Position& at, const models::Discretization& discretizati
 void Follow::begin_level(const mesh::Mesh& mesh, int level, const models::Sizes& sizes) const {
   log::info("level {}: {} cells, {} unknowns ({} in the linear system)", level, mesh.global_cells, sizes.unknowns_all,
             sizes.unknowns_global);
-  const std::string header =
-      params_.estimated() ? fmt::format("{:>12}{:>12}{:>12}{:>12}", "eta_disc", "eta_lin", "eta_alg", "bound") : std::string();
+  const std::string header = params_.estimated() ? estimate_header() : "";
   log::info("{:>6}{:>6}{:>8}{:>10}{:>10}{:>13}{}", "level", "step", "Krylov", "active", "changed", "residual", header);
 }
 
 void Follow::end_level(const Progress& at) {
-  log::info("{:>6}{:>6}{:>41}{}", at.level, "end", "", columns(at.estimate));
+  log::info("{:>6}{:>6}{:>41}{}", at.level, "end", "", estimate_columns(at.estimate));
   history_.append(row(at));
 }
 
 void Follow::step(const Progress& at, const complementarity::NewtonRecord& record) {
   log::info("{:>6}{:>6}{:>8}{:>10}{:>10}{:>13.4e}{}{}", at.level, record.step, record.linear_iterations, record.active, record.changed,
-            record.residual, columns(at.estimate), record.step_length < 1 ? fmt::format("   damped {:.2g}", record.step_length) : "");
+            record.residual, estimate_columns(at.estimate),
+            record.step_length < 1 ? fmt::format("   damped {:.2g}", record.step_length) : "");
   history_.append(row(at));
 }
 
@@ -72,12 +63,7 @@ output::HistoryRow Follow::row(const Progress& at) const {
   row.active = at.active;
   row.changed = at.changed;
   row.residual = at.residual;
-  if (at.estimate) {
-    row.eta_disc = at.estimate->discretization;
-    row.eta_lin = at.estimate->linearization;
-    row.eta_alg = at.estimate->algebraic;
-    row.eta_total = at.estimate->total;
-  }
+  set_estimate(row, at.estimate);
   row.energy_error = at.energy_error;
   row.seconds = seconds();
   return row;

@@ -124,9 +124,17 @@ const core::Schema<ExpectParams>& ExpectParams::schema() {
           .parameter("bound at most", &ExpectParams::bound_at_most, core::above(0), "Largest guaranteed bound on the energy error.")
           .parameter("unknowns", &ExpectParams::unknowns, core::at_least(0), "Number of unknowns, the multiplier included.")
           .parameter("cells", &ExpectParams::cells, core::at_least(0), "Number of cells.")
+          .parameter("steps at most", &ExpectParams::steps_at_most, core::at_least(1), "Time steps.")
+          .parameter("retries at most", &ExpectParams::retries_at_most, core::at_least(0), "Attempts at time steps that were given up.")
+          .parameter("water balance at most", &ExpectParams::water_balance_at_most, core::above(0),
+                     "Largest defect of a step in the mass of water, relative to the water in place.")
+          .parameter("hydrogen balance at most", &ExpectParams::hydrogen_balance_at_most, core::above(0),
+                     "Largest defect of a step in the mass of hydrogen, relative to what was injected.")
+          .parameter("front between", &ExpectParams::front_between, "Smallest and largest position of the gas front at the end.")
           .check([](const ExpectParams& params, core::Problems& problems) {
             check_pair(params.energy_error_between, "energy error between", problems);
             check_pair(params.effectivity_between, "effectivity between", problems);
+            check_pair(params.front_between, "front between", problems);
           });
   return schema;
 }
@@ -148,7 +156,8 @@ const core::Schema<RunParams>& RunParams::schema() {
 }
 
 bool RunParams::estimated() const {
-  return stopping.estimate.value_or(false) || stopping.rule == complementarity::StoppingRule::adaptive || adaptive();
+  return stopping.estimate.value_or(false) || stopping.rule == complementarity::StoppingRule::adaptive || adaptive() ||
+         (time && time->adaptive);
 }
 
 }  // namespace thixis::drive

@@ -75,12 +75,36 @@ void judge_method(const RunParams& params, Mistakes& mistakes) {
         "linear/preconditioner: muelu needs a symmetric system, and that of nipg is not: write 'ilu', or the variant 'sipg'.");
 }
 
+bool in_time(scene::Model model) { return model == scene::Model::parabolic_membranes || model == scene::Model::two_phase; }
+
+void judge_time(const RunParams& params, Mistakes& mistakes) {
+  if (!in_time(params.scene.model)) {
+    if (params.time)
+      mistakes.push_back("time: the scene is stationary; drop this block, or write scene/model = parabolic membranes or two-phase.");
+    return;
+  }
+  if (!params.time) mistakes.push_back("time: the scene is one in time; give this block with 'step' and 'end'.");
+  if (params.newton.start == complementarity::Start::nested)
+    mistakes.push_back("newton/start: each step of time starts from the state before; write cold, or leave it out.");
+  const auto& initial = params.newton.initial;
+  if (initial.u || initial.u1 || initial.u2 || initial.lambda)
+    mistakes.push_back("newton/initial: each step of time starts from the state before; give initial data in the block 'scene'.");
+  if (params.adapt && !params.stopping.target)
+    mistakes.push_back("adapt: in time the mesh is refined where the target asks for it; give stopping/target as well.");
+  if (params.scene.model == scene::Model::two_phase && params.adaptive())
+    mistakes.push_back(
+        "stopping/target: the meshes of two-phase flow are not refined in time; leave out the target and the block 'adapt'.");
+}
+
 }  // namespace
 
 void check_served(const RunParams& params) {
   Mistakes mistakes;
+  if (const auto found = mesh::not_triangles(params.mesh); found && params.method.name != method::MethodName::fv)
+    mistakes.push_back(fmt::format("mesh/{}: {}", found->parameter, found->sentence));
   judge_estimate(params, mistakes);
   judge_method(params, mistakes);
+  judge_time(params, mistakes);
   if (!mistakes.empty()) throw core::InputError(fmt::format("{}", fmt::join(mistakes, "\n")));
 }
 

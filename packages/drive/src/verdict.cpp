@@ -36,7 +36,7 @@ std::string target_missed(const RunParams& params, const Outcome& outcome) {
 }  // namespace
 
 Verdict judge(const RunParams& params, const Outcome& outcome) {
-  const auto missing = missed(params.expect, outcome, outcome.mesh->global_cells);
+  const auto missing = missed(params.expect, found(outcome));
   const std::string clauses = fmt::format("{}", fmt::join(missing, "; "));
   if (outcome.not_wanted) {
     if (!missing.empty()) return {ExitCode::target_missed, "not solved (max iterations = 0), and not as expected: " + clauses + "."};

@@ -35,7 +35,7 @@ Mesh coarsest_mesh(const MeshParams& params, const core::Comm& comm, const std::
       return make_mesh(rectangle_mesh(params), comm);
     case Generator::disk:
       return make_mesh(disk_mesh(params), comm);
-    case Generator::file:
+    default:
       break;
   }
   const Triangulation triangulation = read_on_root(params.file, comm, folder);
@@ -61,7 +61,8 @@ void require_size(const MeshParams& params, const Mesh& coarsest) {
 }  // namespace
 
 Hierarchy build(const MeshParams& params, const core::Comm& comm, const std::string& folder) {
-  if (const auto found = mistake(params)) throw core::InputError("mesh/" + found->parameter + ": " + found->sentence);
+  for (const auto& found : {mistake(params), not_triangles(params)})
+    if (found) throw core::InputError("mesh/" + found->parameter + ": " + found->sentence);
 
   Hierarchy hierarchy;
   std::deque<Mesh>& levels = hierarchy.levels;

@@ -24,17 +24,16 @@ const std::string data_name = "fields.h5";
 /// Bytes that a grid needs in the file.
 long long room_of(const XdmfGrid& grid, bool new_mesh) {
   long long room = group_bytes;
-  if (new_mesh) room += group_bytes + 2 * array_bytes + 8 * (2 * grid.points + 3 * grid.triangles);
+  if (new_mesh) room += group_bytes + 2 * array_bytes + 8 * (2 * grid.points + grid.corners * grid.cells);
   for (const XdmfAttribute& field : grid.attributes)
-    room += array_bytes + 8 * field.columns * (field.centre == Centre::vertex ? grid.points : grid.triangles);
+    room += array_bytes + 8 * field.columns * (field.centre == Centre::vertex ? grid.points : grid.cells);
   return room;
 }
 
-std::vector<GlobalIndex> global_triangles(const Grid& grid) {
-  std::vector<GlobalIndex> result;
-  result.reserve(3 * grid.triangles.size());
-  for (const auto& triangle : grid.triangles)
-    for (const LocalIndex point : triangle) result.push_back(grid.point_id[point]);
+/// [cells][corners] ids of points.
+std::vector<GlobalIndex> corner_ids(const Grid& grid, const Cells& cells) {
+  std::vector<GlobalIndex> result(cells.points.size());
+  std::transform(cells.points.begin(), cells.points.end(), result.begin(), [&](LocalIndex point) { return grid.point_id[point]; });
   return result;
 }
 
@@ -106,19 +105,25 @@ struct FieldWriter::Impl {
 
   void write(const Grid& grid, const std::vector<FieldData>& fields, double time) {
     begin(time);
-    check(grid, fields, comm);
-    const std::uint64_t found = fingerprint(grid, comm);
+    const Cells cells = cells_of(grid);
+    check(grid, cells, fields, comm);
+    const std::uint64_t found = fingerprint(grid, cells, comm);
     const bool new_mesh = grids == 0 || found != last.fingerprint;
     const int mesh = new_mesh ? grids : last.mesh;
-    XdmfGrid next{grids, mesh, file_of(grids), file_of(mesh), grid.global_points, grid.global_triangles, time, {}};
+    XdmfGrid next{grids, mesh, file_of(grids), file_of(mesh), grid.global_points, cells.global, cells.corners, time, {}};
     for (const FieldData& field : fields) next.attributes.push_back({field.name, field.centre, field.components == 1 ? 1 : 3});
     const std::string element = xdmf_grid(next, true);
 
     const SlabExchange points(grid.point_id, grid.point_owner, grid.global_points, "point", comm);
-    const SlabExchange triangles(grid.triangle_id, grid.triangle_owner, grid.global_triangles, "triangle", comm);
+    const SlabExchange of_cells(cells.id, cells.owner, cells.global, cell_name(cells.corners), comm);
     const auto add_to = [&](Hdf5File& file) {
-      if (new_mesh) write_mesh(file, fmt::format("/mesh_{}", mesh), grid, points, triangles, found);
-      write_values(file, next, fields, points, triangles);
+      if (new_mesh) {
+        const std::string group = fmt::format("/mesh_{}", mesh);
+        write_points(file, group, grid, points, found);
+        file.add_array(group + "/" + cell_array(cells.corners), of_cells.slab(), cells.corners,
+                       of_cells(corner_ids(grid, cells).data(), cells.corners, cells.corners));
+      }
+      write_values(file, next, fields, points, of_cells);
     };
     const long long room = room_of(next, new_mesh);
     if (series) {
@@ -146,23 +151,22 @@ struct FieldWriter::Impl {
     open = true;
   }
 
-  static void write_mesh(Hdf5File& file, const std::string& group, const Grid& grid, const SlabExchange& points,
-                         const SlabExchange& triangles, std::uint64_t fingerprint) {
+  static void write_points(Hdf5File& file, const std::string& group, const Grid& grid, const SlabExchange& points,
+                           std::uint64_t fingerprint) {
     file.add_group(group);
     file.add_attribute(group, "fingerprint", static_cast<GlobalIndex>(fingerprint));
     const double* coordinates = grid.points.empty() ? nullptr : grid.points.front().data();
     file.add_array(group + "/points", points.slab(), 2, points(coordinates, 2, 2));
-    file.add_array(group + "/triangles", triangles.slab(), 3, triangles(global_triangles(grid).data(), 3, 3));
   }
 
   static void write_values(Hdf5File& file, const XdmfGrid& next, const std::vector<FieldData>& fields, const SlabExchange& points,
-                           const SlabExchange& triangles) {
+                           const SlabExchange& cells) {
     const std::string group = fmt::format("/fields_{}", next.number);
     file.add_group(group);
     file.add_attribute(group, "time", next.time);
     file.add_attribute(group, "mesh", static_cast<GlobalIndex>(next.mesh));
     for (std::size_t k = 0; k < fields.size(); ++k) {
-      const SlabExchange& exchange = fields[k].centre == Centre::vertex ? points : triangles;
+      const SlabExchange& exchange = fields[k].centre == Centre::vertex ? points : cells;
       const int columns = next.attributes[k].columns;
       file.add_array(group + "/" + fields[k].name, exchange.slab(), columns,
                      exchange(fields[k].values.data(), fields[k].components, columns));
@@ -175,10 +179,8 @@ struct FieldWriter::Impl {
   }
   void write_list() const {
     if (series) write_text(data_path, file_of_links(links()));
-    if (grids == 0)
-      discard(text_path);
-    else
-      write_text(text_path, grids == 1 && !series ? xdmf_single(single) : xdmf_series(collected));
+    if (grids == 0) discard(text_path);
+    else write_text(text_path, grids == 1 && !series ? xdmf_single(single) : xdmf_series(collected));
   }
   std::vector<Link> links() const {
     std::vector<Link> result;

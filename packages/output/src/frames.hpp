@@ -16,7 +16,7 @@ struct StoredFrame {
 
 /// The frames of a series in time: frame n is the file `fields/<n, six digits at least>.h5` in the folder of the run, and holds
 ///
-///     /mesh_<n>    if the mesh is not that of frame n - 1: `points`, `triangles` and the attribute `fingerprint` (64 bits, integer)
+///     /mesh_<n>    if the mesh is not that of frame n - 1: `points`, the cells and the attribute `fingerprint` (64 bits, integer)
 ///     /fields_<n>  the fields, and the attributes `time` (double) and `mesh` (integer), the number of the frame that holds the mesh
 ///     /xdmf        text, its `<Grid>` element of fields.xdmf
 ///

@@ -28,14 +28,17 @@ void check_values(const FieldData& field, std::size_t owned_end) {
                       field.components));
 }
 
-void check_arrays(const Grid& grid) {
+void check_arrays(const Grid& grid, const Cells& cells) {
+  if (grid.others.corners != 0 && (grid.global_triangles != 0 || !grid.triangles.empty()))
+    wrong("A grid must have cells of one kind, not triangles and others.");
+  if (cells.corners < 2 || cells.corners > 4) wrong(fmt::format("The cells of a grid must have 2, 3 or 4 corners, not {}.", cells.corners));
   if (grid.point_id.size() != grid.points.size() || grid.point_owner.size() != grid.points.size() ||
-      grid.triangle_id.size() != grid.triangles.size() || grid.triangle_owner.size() != grid.triangles.size())
-    wrong("A grid must have as many numbers and owners as points and triangles.");
+      cells.points.size() != cells.id.size() * cells.corners || cells.id.size() != cells.owner.size())
+    wrong(fmt::format("A grid must have as many numbers and owners as points and {}s.", cell_name(cells.corners)));
   const auto points = static_cast<LocalIndex>(grid.points.size());
-  for (const auto& triangle : grid.triangles)
-    for (const LocalIndex point : triangle)
-      if (point < 0 || point >= points) wrong(fmt::format("A triangle of a grid refers to the point {} of {}.", point, points));
+  for (const LocalIndex point : cells.points)
+    if (point < 0 || point >= points)
+      wrong(fmt::format("A {} of a grid refers to the point {} of {}.", cell_name(cells.corners), point, points));
 }
 
 long long description_hash(const std::vector<FieldData>& fields) {
@@ -66,15 +69,25 @@ Grid grid_of(const mesh::Mesh& mesh) {
   return grid;
 }
 
-std::uint64_t fingerprint(const Grid& grid, const core::Comm& comm) {
-  std::uint64_t sum = comm.root() ? mixed(mixed(0, grid.global_points), grid.global_triangles) : 0;
+Cells cells_of(const Grid& grid) {
+  if (grid.others.corners != 0) return grid.others;
+  Cells cells{3, grid.global_triangles, {}, grid.triangle_id, grid.triangle_owner};
+  cells.points.reserve(3 * grid.triangles.size());
+  for (const auto& triangle : grid.triangles) cells.points.insert(cells.points.end(), triangle.begin(), triangle.end());
+  return cells;
+}
+
+const char* cell_name(int corners) { return corners == 2 ? "segment" : corners == 3 ? "triangle" : "quadrilateral"; }
+
+std::uint64_t fingerprint(const Grid& grid, const Cells& cells, const core::Comm& comm) {
+  std::uint64_t sum = comm.root() ? mixed(mixed(0, grid.global_points), cells.global) : 0;
   for (std::size_t a = 0; a < grid.points.size(); ++a)
     if (grid.point_owner[a] == comm.rank())
       sum += mixed(mixed(mixed(1, grid.point_id[a]), bits(grid.points[a][0])), bits(grid.points[a][1]));
-  for (std::size_t K = 0; K < grid.triangles.size(); ++K) {
-    if (grid.triangle_owner[K] != comm.rank()) continue;
-    std::uint64_t hash = mixed(2, grid.triangle_id[K]);
-    for (const LocalIndex point : grid.triangles[K]) hash = mixed(hash, grid.point_id[point]);
+  for (std::size_t K = 0; K < cells.id.size(); ++K) {
+    if (cells.owner[K] != comm.rank()) continue;
+    std::uint64_t hash = mixed(2, cells.id[K]);
+    for (int i = 0; i < cells.corners; ++i) hash = mixed(hash, grid.point_id[cells.points[K * cells.corners + i]]);
     sum += hash;
   }
   std::uint64_t total = 0;
@@ -82,17 +95,18 @@ std::uint64_t fingerprint(const Grid& grid, const core::Comm& comm) {
   return total;
 }
 
-void check(const Grid& grid, const std::vector<FieldData>& fields, const core::Comm& comm) {
+void check(const Grid& grid, const Cells& cells, const std::vector<FieldData>& fields, const core::Comm& comm) {
   comm.together([&] {
-    check_arrays(grid);
-    const std::size_t points = end_of_owned(grid.point_owner, comm.rank()), triangles = end_of_owned(grid.triangle_owner, comm.rank());
+    check_arrays(grid, cells);
+    const std::size_t owned_points = end_of_owned(grid.point_owner, comm.rank()), owned_cells = end_of_owned(cells.owner, comm.rank());
     std::set<std::string> names;
     for (const FieldData& field : fields) {
       check_entry_name("field", field.name);
-      check_values(field, field.centre == Centre::vertex ? points : triangles);
+      check_values(field, field.centre == Centre::vertex ? owned_points : owned_cells);
       if (!names.insert(field.name).second) wrong(fmt::format("Two fields are called '{}'.", field.name));
     }
   });
+  if (comm.min(cells.corners) != comm.max(cells.corners)) wrong("The cells of a grid must be of the same kind on all ranks.");
   const long long hash = description_hash(fields);
   if (comm.min(hash) != comm.max(hash)) wrong("All ranks must write the same fields in the same order.");
 }

@@ -25,7 +25,7 @@ class Hdf5Reader {
   GlobalIndex integer(const std::string& group, const std::string& name) const;
   std::vector<std::string> attributes(const std::string& group) const;  ///< names, sorted
   std::vector<std::string> entries(const std::string& group) const;     ///< names, sorted
-  GlobalIndex rows(const std::string& array) const;  ///< its first extent
+  GlobalIndex rows(const std::string& array) const;                     ///< its first extent
   GlobalIndex length(const std::string& vector) const;
   std::vector<double> numbers(const std::string& vector, const Slab& slab) const;
   std::vector<GlobalIndex> integers(const std::string& vector, const Slab& slab) const;

@@ -39,6 +39,13 @@ Json json(const std::optional<SummaryEstimate>& estimate) {
   return result;
 }
 
+Json json(const std::vector<SummaryBalance>& balances) {
+  std::vector<std::pair<std::string, double>> entries;
+  for (const auto& balance : balances) entries.emplace_back(balance.component, balance.worst_step);
+  for (const auto& balance : balances) entries.emplace_back(balance.component + "_total", balance.total);
+  return object(entries);
+}
+
 Json json(const Summary& s) {
   Json result;
   result["verdict"] = s.verdict;
@@ -55,6 +62,11 @@ Json json(const Summary& s) {
   result["newton_iterations"] = s.newton_iterations;
   result["newton_finest"] = s.newton_finest;
   result["linear_iterations"] = s.linear_iterations;
+  if (s.in_time) {
+    result["steps"] = s.in_time->steps;
+    result["retries"] = s.in_time->retries;
+    result["time_end"] = number(s.in_time->end);
+  }
   result["energy_error"] = number(s.energy_error);
   result["energy_norm"] = number(s.energy_norm);
   result["estimate"] = json(s.estimate);
@@ -67,6 +79,10 @@ Json json(const Summary& s) {
                    {"between_nodes", number(s.kkt.between_nodes)},
                    {"equilibrium", number(s.kkt.equilibrium)}};
   result["active_points"] = s.active_points ? Json(*s.active_points) : Json(nullptr);
+  if (s.flow) {
+    result["mass_balance"] = json(s.flow->mass_balance);
+    result["front"] = number(s.flow->front);
+  }
   result["time"] = object({{"total", s.time.total},
                            {"mesh", s.time.mesh},
                            {"assembly", s.time.assembly},

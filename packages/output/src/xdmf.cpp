@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include "grid.hpp"
+
 namespace thixis::output {
 namespace {
 
@@ -13,19 +15,25 @@ std::string document(const std::string& domain) {
   return "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n<Domain>\n" + domain + "</Domain>\n</Xdmf>\n";
 }
 
+const char* topology(int corners) {
+  return corners == 2 ? R"("Polyline" NodesPerElement="2")" : corners == 3 ? R"("Triangle")" : R"("Quadrilateral")";
+}
+
 }  // namespace
+
+std::string cell_array(int corners) { return std::string(cell_name(corners)) + "s"; }
 
 std::string xdmf_grid(const XdmfGrid& grid, bool with_time) {
   const std::string mesh = fmt::format("{}:/mesh_{}", grid.mesh_file, grid.mesh);
   std::string text = fmt::format("<Grid Name=\"grid {}\" GridType=\"Uniform\">\n", grid.number);
   if (with_time) text += fmt::format("  <Time Value=\"{}\"/>\n", grid.time);
-  text += fmt::format("  <Topology TopologyType=\"Triangle\" NumberOfElements=\"{}\">{}</Topology>\n", grid.triangles,
-                      data_item(fmt::format("{} 3", grid.triangles), "Int", mesh + "/triangles"));
+  text += fmt::format("  <Topology TopologyType={} NumberOfElements=\"{}\">{}</Topology>\n", topology(grid.corners), grid.cells,
+                      data_item(fmt::format("{} {}", grid.cells, grid.corners), "Int", mesh + "/" + cell_array(grid.corners)));
   text += fmt::format("  <Geometry GeometryType=\"XY\">{}</Geometry>\n",
                       data_item(fmt::format("{} 2", grid.points), "Float", mesh + "/points"));
   for (const XdmfAttribute& attribute : grid.attributes) {
     const bool cell = attribute.centre == Centre::cell, scalar = attribute.columns == 1;
-    const GlobalIndex rows = cell ? grid.triangles : grid.points;
+    const GlobalIndex rows = cell ? grid.cells : grid.points;
     const std::string dimensions = scalar ? fmt::format("{}", rows) : fmt::format("{} {}", rows, attribute.columns);
     text += fmt::format("  <Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"{}\">{}</Attribute>\n", attribute.name,
                         scalar ? "Scalar" : "Vector", cell ? "Cell" : "Node",

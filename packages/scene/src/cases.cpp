@@ -315,6 +315,14 @@ const std::vector<Case>& cases() {
        "Unit square, in time: the contact disk rests, gap and multiplier are smooth and affine in time; exact solution known."},
       {"relaxation", Model::parabolic_membranes,
        "Any domain, e.g. the unit square, in time: flat membranes pressed together by constant forces come to rest in contact."},
+      {"gas injection", Model::two_phase,
+       "Interval of 200 m: hydrogen enters water in clay on the left for 5e5 years, a gas phase appears and is gone by 7e5 years (MoMaS)."},
+      {"gas injection short", Model::two_phase,
+       "Interval of 200 m: as 'gas injection' with a quadratic capillary law near S = 1; published Newton counts until 5e5 years."},
+      {"gas injection 2d", Model::two_phase,
+       "200 m x 20 m, with gravity: hydrogen enters through the lowest quarter of the left side for 5e5 years."},
+      {"closed column", Model::two_phase,
+       "Interval of 20 m, upright, closed: hydrogen made at the foot becomes gas for a while, dissolves, and gathers below a cap of gas."},
   };
   return all;
 }

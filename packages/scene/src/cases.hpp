@@ -14,7 +14,11 @@ struct CatalogueEntry {
   std::map<std::string, double> constants;
 };
 
-/// The case of this name, which is one of cases().
+/// The case of this name, which is one of cases(), of membranes.
 CatalogueEntry catalogue(const std::string& name);
+
+/// A case of two-phase flow, one of cases(), with the medium (and, where they are given, the capillary law and the gravity) of the deck:
+/// what hangs on them, e.g. a hydrostatic pressure, does so here, too.
+TwoPhaseScene flow_catalogue(const std::string& name, const FlowParams& given);
 
 }  // namespace thixis::scene

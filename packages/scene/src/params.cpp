@@ -12,30 +12,11 @@
 namespace thixis::scene {
 namespace {
 
-using Report = std::function<void(const std::string&, const std::string&)>;
-using Constants = std::map<std::string, double>;
-
-void examine_formula(const std::string& path, const core::Formula& formula, const Constants& constants, const Report& report) {
-  if (formula.empty()) return;
-  try {
-    const core::Expression parsed(formula.text, {"x", "y", "t", "r"}, constants);
-    if (parsed.constant() && !std::isfinite(parsed({0, 0, 0, 0}))) report(path, "'" + formula.text + "' is not a finite number.");
-  } catch (const core::InputError& error) {
-    report(path, error.what());
-  }
-}
-
 void examine_tension(const std::string& path, const core::Formula& formula, const Constants& constants, const Report& report) try {
   const core::Expression parsed(formula.text, {"x", "y", "t", "r"}, constants);
   if (parsed.constant() && parsed({0, 0, 0, 0}) <= 0) report(path, "a tension must be positive, not " + formula.text + ".");
 } catch (const core::InputError&) {
   // reported as an expression already
-}
-
-void examine_constants(const Constants& constants, const Report& report) {
-  for (const char* taken : {"x", "y", "t", "r", "pi"})
-    if (constants.count(taken) > 0)
-      report(std::string("data/constants/") + taken, "this name has a meaning in every expression already; take another one.");
 }
 
 /// A function of the deck, where it stands.
@@ -158,7 +139,7 @@ void examine_data(const SceneParams& params, const Report& report) {
   examine_formula("data/psi", data.psi, data.constants, report);
   examine_formula("data/lambda", data.lambda, data.constants, report);
   examine_formula("interface", params.interface, data.constants, report);
-  examine_constants(data.constants, report);
+  examine_constants("data/constants", data.constants, report);
   if (data.centre.size() != 2) report("data/centre", "the centre has two coordinates; write {x,y}.");
   if (!examine_names(params, report)) return;  // what seems to be missing may only have a wrong name
   examine_exact(membranes, data, report);
@@ -184,6 +165,7 @@ void examine_case(const SceneParams& params, const Report& report) {
   for (const auto& [name, model] : models())
     if (model == found->model && model != params.model)
       report("case", "'" + found->name + "' is a case of another model; write model = '" + name + "' or take one of its own.");
+  if (found->model == Model::two_phase) return;
   if (!params.boundary.empty())
     report("boundary", "a catalogued case brings its own boundary data; drop this block, or give 'data' in place of 'case'.");
   examine_formula("interface", params.interface, catalogue(found->name).constants, report);
@@ -195,7 +177,40 @@ core::Range case_names() {
   return range;
 }
 
+/// What describes membranes does not describe a flow.
+void examine_two_phase(const SceneParams& params, const Report& report) {
+  if (params.data) report("data", "these are functions of membranes; describe two-phase flow in 'flow'.");
+  if (!params.boundary.empty()) report("boundary", "the boundary of two-phase flow is described in 'flow/boundary'; move this there.");
+  if (!params.interface.empty()) report("interface", "finite volumes cut no cells; drop this.");
+  if (!params.case_name && !params.flow)
+    report("", "nothing says which problem to solve; give a catalogued 'case' or a sublist 'flow'.");
+  if (params.case_name) examine_case(params, report);
+  if (params.flow) examine_flow(*params.flow, report);
+}
+
 }  // namespace
+
+void examine_formula(const std::string& path, const core::Formula& formula, const Constants& constants, const Report& report) {
+  if (formula.empty()) return;
+  try {
+    const core::Expression parsed(formula.text, {"x", "y", "t", "r"}, constants);
+    if (parsed.constant() && !std::isfinite(parsed({0, 0, 0, 0}))) report(path, "'" + formula.text + "' is not a finite number.");
+  } catch (const core::InputError& error) {
+    report(path, error.what());
+  }
+}
+
+void examine_constants(const std::string& path, const Constants& constants, const Report& report) {
+  for (const char* taken : {"x", "y", "t", "r", "pi"})
+    if (constants.count(taken) > 0)
+      report(path + "/" + taken, "this name has a meaning in every expression already; take another one.");
+}
+
+std::string to_text(Model model) {
+  for (const auto& [name, known] : models())
+    if (known == model) return name;
+  return "";
+}
 
 std::vector<MembraneEntries> membranes_of(Model model) {
   using D = DataParams;
@@ -213,6 +228,8 @@ std::vector<MembraneEntries> membranes_of(Model model) {
 }
 
 void examine(const SceneParams& params, const Report& report) {
+  if (params.model == Model::two_phase) return examine_two_phase(params, report);
+  if (params.flow) report("flow", "this describes two-phase flow; write model = 'two-phase', or drop it.");
   if (params.case_name && params.data) return report("data", "there is a case as well; give either 'case' or 'data'.");
   if (!params.case_name && !params.data)
     return report("", "nothing says which problem to solve; give a catalogued 'case' or a sublist 'data'.");
@@ -283,6 +300,7 @@ const core::Schema<SceneParams>& SceneParams::schema() {
           .parameter("case", &SceneParams::case_name, case_names(), "A catalogued case (`thixis cases`); give this or 'data'.")
           .exemplary()
           .block("data", &SceneParams::data, DataParams::schema())
+          .block("flow", &SceneParams::flow, FlowParams::schema())
           .parameter("interface", &SceneParams::interface,
                      "Expression whose zero set are the curves across which data jump, a product for several; integrals are exact in the "
                      "cells that it cuts.")

@@ -1,5 +1,6 @@
 #pragma once
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -23,7 +24,15 @@ struct MembraneEntries {
 /// The membranes of a model, the upper one first; none if it is about something else.
 std::vector<MembraneEntries> membranes_of(Model model);
 
+using Report = std::function<void(const std::string& path, const std::string& sentence)>;
+using Constants = std::map<std::string, double>;
+
 /// Calls report(path relative to the block `scene`, sentence) for everything in the block that can not be meant.
-void examine(const SceneParams& params, const std::function<void(const std::string& path, const std::string& sentence)>& report);
+void examine(const SceneParams& params, const Report& report);
+/// The same for the sublist `flow`.
+void examine_flow(const FlowParams& flow, const Report& report);
+/// The same for one expression, if it is given, and for the names of constants at `path`.
+void examine_formula(const std::string& path, const core::Formula& formula, const Constants& constants, const Report& report);
+void examine_constants(const std::string& path, const Constants& constants, const Report& report);
 
 }  // namespace thixis::scene

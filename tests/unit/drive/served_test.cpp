@@ -68,14 +68,14 @@ TEST(Expectations, judge_bound_and_effectivity) {
   outcome.not_wanted = false, outcome.solved = true;
   ExpectParams expect;
   expect.effectivity_between = {1, 2}, expect.bound_at_most = 0.1;
-  EXPECT_EQ(missed(expect, outcome, 0).size(), 2u) << "neither is known";
+  EXPECT_EQ(missed(expect, found(outcome)).size(), 2u) << "neither is known";
   outcome.energy_error = 0.05, outcome.estimate.emplace();
   outcome.estimate->total = 0.09;
-  EXPECT_TRUE(missed(expect, outcome, 0).empty());
+  EXPECT_TRUE(missed(expect, found(outcome)).empty());
   outcome.estimate->total = 0.11;
-  EXPECT_EQ(missed(expect, outcome, 0), (std::vector<std::string>{"bound 0.11 is above 0.1", "effectivity 2.2 is not between 1 and 2"}));
+  EXPECT_EQ(missed(expect, found(outcome)), (std::vector<std::string>{"bound 0.11 is above 0.1", "effectivity 2.2 is not between 1 and 2"}));
   outcome.estimate->total = 0.04;
-  EXPECT_EQ(missed(expect, outcome, 0), std::vector<std::string>{"effectivity 0.8 is not between 1 and 2"});
+  EXPECT_EQ(missed(expect, found(outcome)), std::vector<std::string>{"effectivity 0.8 is not between 1 and 2"});
 }
 
 }  // namespace

@@ -98,6 +98,23 @@ TEST(parameters, with_a_file_need_the_generator_file_and_the_other_way_round) {
   EXPECT_EQ(refusal(params), "mesh/file: write the name of a Gmsh mesh, or choose another generator.");
 }
 
+TEST(parameters, of_intervals_and_rectangles_describe_no_triangles) {
+  MeshParams params;
+  params.generator = Generator::interval;
+  params.cells = {10};
+  EXPECT_FALSE(mistake(params));
+  EXPECT_EQ(refusal(params),
+            "mesh/generator: an interval has no triangles, and only the method fv can do without; write method/name = fv, or one of the "
+            "generators criss-cross, rectangle, disk, file.");
+  params.generator = Generator::tensor;
+  params.cells = {10, 20};
+  EXPECT_FALSE(mistake(params));
+  EXPECT_EQ(refusal(params).substr(0, 46), "mesh/generator: a tensor grid has no triangles");
+  params.generator = Generator::rectangle;
+  EXPECT_EQ(refusal(params),
+            "mesh/cells: only the generators 'interval' and 'tensor' are counted in cells; write one of them, or leave out the cells.");
+}
+
 TEST(deck, that_describes_a_mesh_is_read) {
   const auto deck = core::Deck::from_text(
       "<ParameterList name=\"mesh\">\n"
@@ -120,7 +137,10 @@ TEST(deck, with_mistakes_is_refused_before_any_mesh_is_built) {
       "that the longer side is a whole multiple of 0.5.");
   EXPECT_EQ(deck_refusal("<Parameter name=\"generator\" type=\"string\" value=\"file\"/>\n"),
             "deck.xml:1: file: write the name of a Gmsh mesh, or choose another generator.");
-  EXPECT_NE(deck_refusal("<Parameter name=\"lower\" type=\"Array(double)\" value=\"{0}\"/>\n"), "");
+  EXPECT_EQ(deck_refusal("<Parameter name=\"lower\" type=\"Array(double)\" value=\"{0}\"/>\n"),
+            "deck.xml:2: lower: write two coordinates, such as {0, 0}.");
+  EXPECT_EQ(deck_refusal("<Parameter name=\"generator\" type=\"string\" value=\"interval\"/>\n"),
+            "deck.xml:1: cells: write the number of intervals, such as {100}.");
   EXPECT_NE(deck_refusal("<Parameter name=\"generator\" type=\"string\" value=\"triangle\"/>\n"), "");
 }
 

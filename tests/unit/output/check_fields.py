@@ -1,7 +1,7 @@
 """Reads the folders that the unit tests left (one per number of ranks) with meshio and compares them.
 
-Each folder holds `single/` (one grid of the disk), `series/` (two grids in time in one file) and `frames/` (three of them in files of their
-own, the last one on a finer mesh). Fails with a sentence; exit code 77: meshio is missing.
+Each folder holds `single/` (one grid of the disk), `series/` (two grids in time in one file), `frames/` (three of them in files of their
+own, the last one on a finer mesh), `segments/` and `quadrilaterals/` (three of them on other cells). Fails with a sentence; exit code 77: meshio is missing.
 """
 import math
 import pathlib
@@ -102,6 +102,41 @@ def check_frames(folder):
             require((point_data["u"] == u).all() and (cell_data["flow"][0] == flow).all(), f"meshio reads other values in frame {n}")
 
 
+def check_other_cells(folder):
+    for name, kind, corners in ("frames_of_segments", "line", 2), ("frames_of_quadrilaterals", "quad", 4):
+        with meshio.xdmf.TimeSeriesReader(folder / name / "fields.xdmf") as reader:
+            points, cells = reader.read_points_cells()
+            found = cells[kind] if isinstance(cells, dict) else next(block.data for block in cells if block.type == kind)
+            require(len(points) == 10 and found.shape == (4, corners), f"{name} are {found.shape} on {len(points)} points")
+            left = points[found[:, 0], 0]
+            require((abs(left - (3 - numpy.arange(4)) / 3) < 1e-15).all(), f"{name} stand at {left}")
+            for n in range(3):
+                time, _, cell_data = reader.read_data(n)
+                require(time == n and (cell_data["u"][0] == numpy.arange(4.0) + n).all(), f"frame {n} on {name} has other values")
+def check_row(mesh, kind):
+    """Seven cells in a row, numbered 3 k + 1 mod 7."""
+    (block,) = mesh.cells
+    require(block.type == kind and block.data.shape == (7, 2 if kind == "line" else 4), f"cells are {block.type} of shape {block.data.shape}")
+    corners = mesh.points[block.data][:, :, :2]
+    k = numpy.arange(7)
+    require((corners[:, :, 0].min(axis=1)[(3 * k + 1) % 7] == k / 2).all(), f"the cells of kind {kind} lie elsewhere")
+    require((mesh.cell_data["centre"][0][:, :2] == corners.mean(axis=1)).all(), f"the centres belong to other cells of kind {kind}")
+    require((mesh.point_data["x"] == mesh.points[:, 0]).all(), "x is not x at its points")
+    if kind == "quad":
+        a, b = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 1]
+        require((a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0] == 0.25).all(), "some square is not counter-clockwise")
+
+
+def check_segments_in_time(folder):
+    with meshio.xdmf.TimeSeriesReader(folder / "fields.xdmf") as reader:
+        points, cells = reader.read_points_cells()
+        require(reader.num_steps == 3 and cells[0].type == "line" and len(cells[0].data) == 7, "no series of 7 segments")
+        for step in range(3):
+            time, point_data, cell_data = reader.read_data(step)
+            require(time == step / 4 and (point_data["x"] == step * points[:, 0]).all(), f"step {step} holds other values")
+            require((cell_data["centre"][0][:, 0] == points[cells[0].data][:, :, 0].mean(axis=1)).all(), f"centres of step {step}")
+
+
 def arrays(folder):
     found = {}
     for path in sorted(folder.glob("*/fields.h5")):
@@ -115,8 +150,12 @@ def main(folders):
         check_single(folder)
         check_series(folder)
         check_frames(folder)
+        check_other_cells(folder)
+        check_row(meshio.read(folder / "segments" / "fields.xdmf"), "line")
+        check_row(meshio.read(folder / "quadrilaterals" / "fields.xdmf"), "quad")
+        check_segments_in_time(folder / "segments_in_time")
     first = arrays(folders[0])
-    require(len(first) == 9, f"{len(first)} arrays: {sorted(first)}")
+    require(len(first) == 17, f"{len(first)} arrays: {sorted(first)}")
     for folder in folders[1:]:
         other = arrays(folder)
         require(first.keys() == other.keys(), f"{folder} holds other arrays")

@@ -21,6 +21,25 @@ void write_frame(FieldWriter& writer, int n, const core::Comm& comm) {
                n / 3.0);
 }
 
+/// The strip of four squares, or the segments below them, in place of its triangles; cell k has the number 3 - k.
+Grid other_grid(int corners, const core::Comm& comm) {
+  const Strip strip{4};
+  Grid grid = strip.grid(comm);
+  grid.global_triangles = 0;
+  grid.triangles.clear();
+  grid.triangle_id.clear();
+  grid.triangle_owner.clear();
+  grid.others.corners = corners;
+  grid.others.global = strip.n;
+  for (int k = 0; k < strip.n; ++k) {
+    grid.others.id.push_back(strip.n - 1 - k);
+    grid.others.owner.push_back(k % comm.size());
+    const std::array<int, 4> square{2 * k, 2 * k + 2, 2 * k + 3, 2 * k + 1};
+    for (int c = 0; c < corners; ++c) grid.others.points.push_back((square[c] - comm.rank() + strip.points()) % strip.points());
+  }
+  return grid;
+}
+
 /// A run of this many frames that kept some.
 void run(const std::string& folder, int kept, int frames, const core::Comm& comm, bool closed = true) {
   FieldWriter writer = FieldWriter::series(folder, comm, kept);
@@ -182,8 +201,7 @@ TEST(frames, go_forward_in_time_behind_those_that_were_kept) {
   run(folder, 0, 3, comm);
   comm.barrier();
   FieldWriter writer = FieldWriter::series(folder, comm, 3);
-  EXPECT_EQ(sentence_of(internal, [&] { write_frame(writer, 2, comm); }).substr(0, 45),
-            "Fields must be written in the order of time; ");
+  EXPECT_EQ(sentence_of(internal, [&] { write_frame(writer, 2, comm); }).substr(0, 45), "Fields must be written in the order of time; ");
   writer.close();
   EXPECT_EQ(times(folder), (std::vector<double>{0, 1 / 3.0, 2 / 3.0}));
 }
@@ -234,6 +252,35 @@ TEST(frames, that_are_many_are_all_listed_when_the_run_goes_on_and_in_the_end) {
   writer.write(grid, {}, 129);
   writer.close();
   EXPECT_EQ(times(folder).size(), 130u);
+}
+
+TEST(frames, of_segments_and_of_quadrilaterals_go_on_with_the_same_mesh) {
+  const core::Comm comm;
+  for (const int corners : {2, 4}) {
+    const std::string kind = corners == 2 ? "segments" : "quadrilaterals", folder = scratch("for_meshio/frames_of_" + kind),
+                      whole = scratch("frames_of_" + kind);
+    const Grid grid = other_grid(corners, comm);
+    const auto write = [&](FieldWriter& writer, int from, int to) {
+      FieldData u{"u", Centre::cell, {}};
+      for (int n = from; n < to; ++n) {
+        u.values.assign(grid.others.id.begin(), grid.others.id.end());
+        for (double& value : u.values) value += n;
+        writer.write(grid, {u}, n);
+      }
+      writer.close();
+    };
+    FieldWriter uninterrupted = FieldWriter::series(whole, comm), first = FieldWriter::series(folder, comm);
+    write(uninterrupted, 0, 3);
+    write(first, 0, 2);
+    comm.barrier();
+    FieldWriter second = FieldWriter::series(folder, comm, 2);
+    write(second, 2, 3);
+    expect_same(folder, whole);
+    EXPECT_EQ(times(folder), (std::vector<double>{0, 1, 2}));
+    EXPECT_EQ(read_array(folder + "/fields.h5", "/mesh_0/" + kind).shape, (std::vector<long long>{4, corners}));
+    EXPECT_EQ(read_array(folder + "/fields.h5", "/fields_2/u").values, (std::vector<double>{2, 3, 4, 5}));
+    EXPECT_TRUE(read_array(folder + "/fields.h5", "/mesh_2/points").shape.empty());
+  }
 }
 
 TEST(frames, of_a_mesh_that_is_refined_are_left_for_other_readers) {

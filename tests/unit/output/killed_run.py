@@ -10,7 +10,7 @@ import sys
 import xml.etree.ElementTree as xml
 
 scratch, program, launcher = pathlib.Path(sys.argv[1]).resolve(), sys.argv[2], sys.argv[4:]
-KILLS = 12
+KILLS = 6 if launcher else 15  # mpirun takes its time to notice
 
 
 def run(folder, microseconds=0):

@@ -1,11 +1,10 @@
-#include "thixis/output/series.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
 #include "scratch.hpp"
+#include "thixis/output/series.hpp"
 
 namespace thixis::output {
 namespace {

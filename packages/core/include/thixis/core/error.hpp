@@ -5,7 +5,7 @@
 namespace thixis::core {
 
 /// What the program returns to the shell, the same on every rank count.
-enum class ExitCode : int { done = 0, internal = 1, input = 2, not_converged = 3, target_missed = 4, input_output = 5 };
+enum class ExitCode : int { done = 0, internal = 1, input = 2, not_converged = 3, target_missed = 4, input_output = 5, interrupted = 6 };
 
 /// An error that ends the run, with a sentence that says what to do instead. Thrown on all ranks before a collective operation.
 class Error : public std::runtime_error {

@@ -69,6 +69,9 @@ struct ExpectParams {
   std::optional<std::vector<double>> effectivity_between;
   std::optional<double> bound_at_most;
   std::optional<long long> unknowns, cells;
+  std::optional<int> steps_at_most, retries_at_most;
+  std::optional<double> water_balance_at_most, hydrogen_balance_at_most;
+  std::optional<std::vector<double>> front_between;
   static const core::Schema<ExpectParams>& schema();
 };
 

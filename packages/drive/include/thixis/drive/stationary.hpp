@@ -71,7 +71,7 @@ struct Outcome {
 /// With a checkpoint (`stored`, not null) it goes on from the level and the iterate of that one, and on finer levels as `nested` does.
 /// Newton itself begins anew there: `newton/max iterations` limits the steps since the restart, and what its safeguards had seen (cycles,
 /// damped steps under way) is forgotten. Step numbers and counts go on.
-Outcome solve_stationary(const models::StationaryModel& model, mesh::Hierarchy& hierarchy, const RunParams& params, const Observer& observer,
-                         const output::StoredCheckpoint* stored = nullptr);
+Outcome solve_stationary(const models::StationaryModel& model, mesh::Hierarchy& hierarchy, const RunParams& params,
+                         const Observer& observer, const output::StoredCheckpoint* stored = nullptr);
 
 }  // namespace thixis::drive

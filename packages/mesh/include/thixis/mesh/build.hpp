@@ -11,13 +11,14 @@ namespace thixis::mesh {
 struct Hierarchy;
 struct Mesh;
 
-enum class Generator { criss_cross, rectangle, disk, file };
+enum class Generator { criss_cross, rectangle, disk, file, interval, tensor };
 
 /// Block `mesh` of the deck.
 struct MeshParams {
   Generator generator = Generator::criss_cross;
   int cells_per_side = 4;
   std::vector<double> lower = {0, 0}, upper = {1, 1};
+  std::vector<int> cells;  ///< interval: n; tensor: nx, ny
   int rings = 4;
   int refinements = 0;
   std::string file;
@@ -32,7 +33,11 @@ struct Mistake {
 };
 std::optional<Mistake> mistake(const MeshParams& params);
 
-/// Builds the mesh and its uniform refinements, partitioned over the ranks. Throws InputError (parameters), FileError (mesh file).
+/// What is wrong where triangles are needed: `interval` and `tensor` make none.
+std::optional<Mistake> not_triangles(const MeshParams& params);
+
+/// Builds the mesh of triangles and its uniform refinements, partitioned over the ranks. Throws InputError (parameters, and generators that
+/// make no triangles), FileError (mesh file).
 /// `folder`: that of the deck; relative mesh files start there.
 Hierarchy build(const MeshParams& params, const core::Comm& comm, const std::string& folder);
 

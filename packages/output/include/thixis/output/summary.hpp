@@ -17,6 +17,26 @@ struct SummaryEstimate {
   std::vector<std::pair<std::string, double>> terms;  ///< further keys: every term of the bound by its name
 };
 
+/// What a run in time adds.
+struct SummaryTime {
+  GlobalIndex steps = 0;    ///< accepted
+  GlobalIndex retries = 0;  ///< steps that failed and were begun again, shorter
+  double end = 0;           ///< key `time_end`: the end of the last step, in the unit of the deck
+};
+
+/// By how much the steps of a two-phase flow missed the balance of a component, relative.
+struct SummaryBalance {
+  std::string component;  ///< water, hydrogen
+  double worst_step = 0;  ///< key: the component
+  double total = 0;       ///< of the sum over all steps; key: the component with `_total`
+};
+
+/// What a two-phase flow adds.
+struct SummaryFlow {
+  std::vector<SummaryBalance> mass_balance;
+  std::optional<double> front;  ///< none: no gas
+};
+
 /// What a run says about itself: the object of `summary.json`, members in the order of its keys. What does not exist is null, and so is
 /// what is not finite.
 struct Summary {
@@ -31,10 +51,11 @@ struct Summary {
     GlobalIndex global = 0;  ///< rows of the Krylov system
   } unknowns;
   GlobalIndex nonzeros = 0;
-  // Behind a restart the three counts are totals that include what was done before it.
+  // Behind a restart the counts are totals that include what was done before it.
   GlobalIndex newton_iterations = 0;  ///< on all levels, in all time steps
   GlobalIndex newton_finest = 0;
   GlobalIndex linear_iterations = 0;
+  std::optional<SummaryTime> in_time;  ///< keys `steps`, `retries`, `time_end`, which stationary scenes do not have
   std::optional<double> energy_error;  ///< if there is an exact solution
   std::optional<double> energy_norm;
   std::optional<SummaryEstimate> estimate, estimate_published;
@@ -43,6 +64,7 @@ struct Summary {
     std::optional<double> infeasible, negative, complementary, between_nodes, equilibrium;
   } kkt;
   std::optional<GlobalIndex> active_points;
+  std::optional<SummaryFlow> flow;  ///< keys `mass_balance`, `front`, which other models do not have
   struct {
     double total = 0, mesh = 0, assembly = 0, preconditioner = 0, linear = 0, estimate = 0, output = 0;
   } time;                ///< seconds

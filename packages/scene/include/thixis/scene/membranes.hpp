@@ -7,12 +7,14 @@
 
 #include "thixis/core/schema.hpp"
 #include "thixis/scene/field.hpp"
+#include "thixis/scene/two_phase.hpp"
 
 namespace thixis::scene {
 
 // -- block `scene` of the deck ------------------------------------------------------------------------------------------------------
 
 enum class Model { membranes, obstacle, parabolic_membranes, signorini, two_phase };
+std::string to_text(Model model);  ///< as in the deck
 
 enum class BoundaryKind {
   dirichlet,  ///< u_alpha = g_alpha
@@ -48,11 +50,13 @@ struct BoundaryParams {
   static const core::Schema<BoundaryParams>& schema();
 };
 
-/// Block `scene`. Its check wants either a case or data and reports expressions that can not be read.
+/// Block `scene`. Its check wants either a case or data (two-phase: a case, a flow, or a case and what is changed in its flow) and reports
+/// expressions that can not be read.
 struct SceneParams {
   Model model = Model::membranes;
   std::optional<std::string> case_name;  ///< `case` in the deck; one of cases()
   std::optional<DataParams> data;
+  std::optional<FlowParams> flow;
   core::Formula interface;  ///< level set; its zero set are the curves across which data jump
   std::map<std::string, BoundaryParams> boundary;
   static const core::Schema<SceneParams>& schema();

@@ -1,0 +1,196 @@
+#include "thixis/drive/evolve.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "evolution_checkpoint.hpp"
+#include "marking.hpp"
+#include "step_control.hpp"
+#include "thixis/algebra/tpetra.hpp"
+#include "thixis/core/timer.hpp"
+
+namespace thixis::drive {
+namespace {
+
+using algebra::Vector;
+
+/// The run from step to step.
+class Run {
+ public:
+  Run(models::Evolution& evolution, const RunParams& params, const EvolutionObserver& observer)
+      : evolution_(evolution), params_(params), time_(*params.time), observer_(observer), control_(time_) {}
+
+  EvolutionOutcome from(const output::StoredCheckpoint* stored) {
+    out_.not_wanted = params_.newton.max_iterations == 0;
+    begin(out_.not_wanted ? nullptr : stored);
+    while (!out_.not_wanted && !at_end() && advance()) {
+      if (observer_.stop) out_.stopped = observer_.stop(out_.at, control_.length(), evolution_, *out_.X);
+      if (!out_.stopped.empty()) break;
+    }
+    out_.solved = at_end();
+    out_.next_length = control_.length();
+    if (took_steps_ && out_.why.empty()) verify();
+    return std::move(out_);
+  }
+
+ private:
+  bool at_end() const { return out_.at.time >= time_.end; }
+
+  void begin(const output::StoredCheckpoint* stored) {
+    const core::Region region("assembly");
+    if (stored) {
+      const StoredEvolution from = stored_evolution(*stored);
+      out_.at = from.at;
+      control_.set_length(from.next_length);
+      out_.X = evolution_.restore(*stored);
+      return;
+    }
+    out_.X = evolution_.initial();
+    if (out_.not_wanted || !observer_.step) return;
+    StepRecord record;
+    record.energy_error = evolution_.energy_error();
+    observer_.step(record, evolution_, *out_.X, {});
+  }
+
+  /// One accepted step; false if that is not possible.
+  bool advance() {
+    const core::Stopwatch clock;
+    for (;;) {
+      const models::TimeStep step{out_.at.time, control_.end_of_step(out_.at.time)};
+      const auto X = Teuchos::rcp(new Vector(*out_.X, Teuchos::Copy));
+      if (!attempt(step, *X)) {
+        if (!cut(step)) return false;
+        continue;
+      }
+      std::optional<models::StepErrors> errors;
+      if (params_.estimated()) {
+        if (finer_mesh(step)) continue;
+        errors = evolution_.step_errors();
+        if (errors && control_.too_long(step.length(), *errors)) {
+          retry(step, fmt::format("the error in time {:.2e} is large beside that in space, {:.2e}", errors->time, errors->space));
+          continue;
+        }
+      }
+      accept(step, X, errors, clock.seconds());
+      return true;
+    }
+  }
+
+  /// Newton from the state before; false if it fails.
+  bool attempt(const models::TimeStep& step, Vector& X) {
+    {
+      const core::Region region("assembly");
+      evolution_.begin(step, *out_.X);
+    }
+    complementarity::NewtonParams newton = params_.newton;
+    newton.sweeps = params_.newton.sweeps.value_or(0);
+    out_.last = complementarity::newton(evolution_.problem(), X, newton, params_.stopping, params_.linear.check_every, on_step(step.end),
+                                        [this](const Vector& iterate) { return evolution_.estimate(iterate); });
+    out_.at.newton_iterations += out_.last.steps;
+    out_.at.linear_iterations += out_.last.linear_iterations;
+    if (!out_.last.converged || !std::isfinite(algebra::norm2(X))) return false;
+    if (params_.estimated()) {
+      const core::Region region("estimate");
+      eta_ = out_.last.estimate ? *out_.last.estimate : evolution_.estimate(X);
+    }
+    return true;
+  }
+
+  bool cut(const models::TimeStep& step) {
+    if (control_.cut(step.length())) {
+      retry(step, out_.last.why);
+      return true;
+    }
+    ++out_.at.retries;
+    out_.why = fmt::format("the step from time {:.6g} to {:.6g} failed, and shorter ones would be below time/smallest = {:.3g}: {}",
+                           step.begin, step.end, control_.smallest(), out_.last.why);
+    return false;
+  }
+
+  void retry(const models::TimeStep& step, const std::string& why) {
+    ++out_.at.retries;
+    if (observer_.retry) observer_.retry(out_.at, step.length(), why, control_.length());
+  }
+
+  /// Whether the mesh was refined because the share of the step in the error is too large.
+  bool finer_mesh(const models::TimeStep& step) {
+    if (!params_.stopping.target || !evolution_.hierarchy()) return false;
+    const double share = *params_.stopping.target * std::sqrt(step.length() / time_.end);
+    if (eta_->discretization <= share) return false;
+    const AdaptParams adapt = params_.adapt.value_or(AdaptParams());
+    const auto& hierarchy = *evolution_.hierarchy();
+    const int added = static_cast<int>(hierarchy.levels.size()) - 1 - params_.mesh.refinements;
+    out_.refinement_limited = true;
+    if (added >= adapt.max_levels || evolution_.sizes().unknowns_all >= adapt.max_unknowns) return false;
+    const auto marked = refinable(hierarchy.finest(), mark(hierarchy.finest(), adapt, evolution_.cell_estimates().discretization));
+    if (marked.empty()) return false;
+    out_.refinement_limited = false;
+    out_.X = evolution_.refine(marked, *out_.X);
+    if (observer_.refined) observer_.refined(out_.at, static_cast<GlobalIndex>(marked.size()), evolution_);
+    return true;
+  }
+
+  void accept(const models::TimeStep& step, const Teuchos::RCP<Vector>& X, const std::optional<models::StepErrors>& errors,
+              double seconds) {
+    {
+      const core::Region region("verification");
+      evolution_.accept(*X);
+    }
+    control_.accept(step.length(), errors);
+    out_.X = X;
+    ++out_.at.step;
+    took_steps_ = true;
+    out_.at.time = step.end;
+    if (!observer_.step) return;
+    StepRecord record;
+    record.at = out_.at;
+    record.length = step.length();
+    record.newton = out_.last.steps;
+    record.linear = out_.last.linear_iterations;
+    record.active = out_.last.active;
+    record.residual = out_.last.residuals.back();
+    record.energy_error = evolution_.energy_error();
+    if (params_.estimated()) record.of_step = eta_;
+    record.so_far = evolution_.estimate_so_far();
+    record.seconds = seconds;
+    observer_.step(record, evolution_, *X, out_.last.active_set);
+  }
+
+  void verify() {
+    const core::Region region("verification");
+    const auto data = evolution_.kkt_data(*out_.X);
+    const double residual =
+        params_.stopping.nonlinear_tolerance * evolution_.problem().reference_norm() + params_.stopping.absolute_tolerance;
+    out_.kkt = complementarity::verify(data);
+    out_.kkt_tolerance = params_.stopping.kkt_tolerance.value_or(data.allowed(residual));
+  }
+
+  complementarity::NewtonObserver on_step(double end) {
+    complementarity::NewtonObserver newton;
+    newton.message = observer_.message;
+    if (observer_.newton)
+      newton.step = [this, end](const complementarity::NewtonRecord& record) { observer_.newton(out_.at, end, record); };
+    if (observer_.check)
+      newton.linear = [this, end](const complementarity::LinearRecord& record) { observer_.check(out_.at, end, record); };
+    return newton;
+  }
+
+  models::Evolution& evolution_;
+  const RunParams& params_;
+  const TimeParams& time_;
+  const EvolutionObserver& observer_;
+  StepControl control_;
+  EvolutionOutcome out_;
+  bool took_steps_ = false;
+  std::optional<complementarity::Estimate> eta_;  ///< of the last attempt, where the error is estimated
+};
+
+}  // namespace
+
+EvolutionOutcome evolve(models::Evolution& evolution, const RunParams& params, const EvolutionObserver& observer,
+                        const output::StoredCheckpoint* stored) {
+  return Run(evolution, params, observer).from(stored);
+}
+
+}  // namespace thixis::drive

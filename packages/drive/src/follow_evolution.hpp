@@ -1,0 +1,49 @@
+#pragma once
+#include "evolution_checkpoint.hpp"
+#include "thixis/core/log.hpp"
+#include "thixis/core/timer.hpp"
+#include "thixis/output/directory.hpp"
+#include "thixis/output/fields.hpp"
+#include "thixis/output/history.hpp"
+#include "thixis/output/series.hpp"
+
+namespace thixis::drive {
+
+/// The log's table of time steps, history, series, fields and checkpoints follow a run in time.
+class FollowEvolution {
+ public:
+  /// `before`: what an interrupted run has left in this directory, of which the rows and frames up to its checkpoint stay; zeros: a new
+  /// one. Collective.
+  FollowEvolution(const output::RunDirectory& directory, const RunParams& params, const models::Evolution& evolution,
+                  const EvolutionCheckpoint& checkpoint, const Written& before, double first_time);
+
+  EvolutionObserver observer();
+  /// Fields of the last state, unless they are there already; closes the series of fields.
+  void finish(const models::Evolution& evolution, const EvolutionOutcome& outcome);
+  void save(const TimePosition& at, double next_length, const models::Evolution& evolution, const algebra::Vector& X) const;
+
+ private:
+  double seconds() const { return before_.seconds + clock_.seconds(); }
+  void begin_table() const;
+  void step(const StepRecord& record, const models::Evolution& evolution, const algebra::Vector& X,
+            const complementarity::ActiveSet& active);
+  void newton(const TimePosition& at, double end, const complementarity::NewtonRecord& record);
+  void check(const TimePosition& at, double end, const complementarity::LinearRecord& record);
+  void retry(const TimePosition& at, double length, const std::string& why, double next) const;
+  std::string stop(const TimePosition& at, double next_length, const models::Evolution& evolution, const algebra::Vector& X) const;
+  void show(int step, double time, const models::Evolution& evolution, const algebra::Vector& X, const complementarity::ActiveSet& active,
+            bool estimated);
+
+  const RunParams& params_;
+  const EvolutionCheckpoint& checkpoint_;
+  Written before_;
+  output::History history_;
+  std::optional<output::Series> series_;       ///< where the scene has one
+  std::optional<output::FieldWriter> fields_;  ///< where fields are asked for
+  int last_frame_;                             ///< the step of the last frame; -1: none
+  double first_time_;
+  core::Stopwatch clock_;
+  core::log::Progress progress_;
+};
+
+}  // namespace thixis::drive

@@ -1,0 +1,98 @@
+#include "results.hpp"
+
+#include <fmt/format.h>
+
+#include <Kokkos_Core.hpp>
+
+#include "thixis/core/log.hpp"
+#include "thixis/core/memory.hpp"
+#include "thixis/core/timer.hpp"
+
+namespace thixis::drive {
+namespace log = core::log;
+
+namespace {
+
+/// A value for each owned cell of the mesh, on the cells of the grid that show it: as many of them for each cell.
+output::FieldData on_cells(const std::string& name, const std::vector<double>& values, std::size_t shown) {
+  output::FieldData field{name, output::Centre::cell, {}};
+  const std::size_t pieces = values.empty() ? 0 : shown / values.size();
+  for (const double value : values) field.values.insert(field.values.end(), pieces, value);
+  return field;
+}
+
+}  // namespace
+
+void open(const output::RunDirectory& directory, const RunParams& params, bool goes_on, const core::Comm& comm) {
+  directory.create(comm);
+  directory.write_deck(core::to_xml(RunParams::schema(), params), comm);
+  comm.on_root([&] { log::open(directory.log(), goes_on ? log::Old::keep : log::Old::overwrite); });
+}
+
+void introduce(const core::Deck& deck, const models::Model& model, const core::Comm& comm, const Versions& versions) {
+  log::info("{}: model {}{}, on {} {}", deck.file(), model.name(), model.case_name().empty() ? "" : ", case " + model.case_name(),
+            comm.size(), comm.size() == 1 ? "rank" : "ranks");
+  std::string text;
+  for (const auto& [name, version] : versions) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name, version);
+  log::info("{}", text);
+}
+
+std::string estimate_header() { return fmt::format("{:>12}{:>12}{:>12}{:>12}", "eta_disc", "eta_lin", "eta_alg", "bound"); }
+
+std::string estimate_columns(const std::optional<complementarity::Estimate>& eta) {
+  if (!eta) return "";
+  return fmt::format("{:>12.3e}{:>12.3e}{:>12.3e}{:>12.3e}", eta->discretization, eta->linearization, eta->algebraic, eta->total);
+}
+
+void set_estimate(output::HistoryRow& row, const std::optional<complementarity::Estimate>& eta) {
+  if (!eta) return;
+  row.eta_disc = eta->discretization;
+  row.eta_lin = eta->linearization;
+  row.eta_alg = eta->algebraic;
+  row.eta_total = eta->total;
+}
+
+void add_estimates(const OutputParams& params, const models::CellEstimates& cells, const output::Grid& grid,
+                   std::vector<output::FieldData>& fields) {
+  for (const auto& name : params.estimate_names())
+    fields.push_back(on_cells(name,
+                              name == "eta_disc"  ? cells.discretization
+                              : name == "eta_lin" ? cells.linearization
+                                                  : cells.algebraic,
+                              grid.cells()));
+}
+
+output::SummaryEstimate parts(const complementarity::Estimate& eta) {
+  return {eta.total, eta.discretization, eta.linearization, eta.algebraic, {}};
+}
+
+output::Summary begin_summary(const RunParams& params, const models::Model& model, const Verdict& verdict, const core::Comm& comm,
+                              double seconds, const Versions& versions) {
+  output::Summary summary;
+  summary.verdict = verdict.sentence;
+  summary.exit_code = static_cast<int>(verdict.code);
+  summary.model = model.name();
+  summary.problem_case = model.case_name();
+  summary.method = method::to_text(params.method.name);
+  summary.degree = params.method.degree;
+  summary.ranks = comm.size();
+  summary.threads = Kokkos::DefaultExecutionSpace::concurrency();
+  const auto longest = [&](const char* region) { return comm.max(core::seconds(region)); };
+  summary.time = {comm.max(seconds), longest("mesh"),     longest("assembly"), longest("preconditioner"),
+                  longest("linear"), longest("estimate"), longest("output")};
+  summary.memory_mb = comm.sum(core::peak_memory_mb());
+  summary.versions = versions;
+  return summary;
+}
+
+core::ExitCode conclude(const output::RunDirectory& directory, const Verdict& verdict, const std::string& invitation,
+                        const core::Comm& comm, double seconds) {
+  log::info("{}", core::region_table(comm, seconds));
+  log::info("results in {}", directory.path());
+  if (!invitation.empty()) log::info("{}", invitation);
+  log::verdict("{}", verdict.sentence);
+  log::close();
+  return verdict.code;
+}
+
+}  // namespace thixis::drive

@@ -1,0 +1,45 @@
+#pragma once
+/// What stationary runs and runs in time write and say in the same way.
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "thixis/core/comm.hpp"
+#include "thixis/core/deck.hpp"
+#include "thixis/drive/params.hpp"
+#include "thixis/models/model.hpp"
+#include "thixis/output/directory.hpp"
+#include "thixis/output/fields.hpp"
+#include "thixis/output/history.hpp"
+#include "thixis/output/summary.hpp"
+#include "verdict.hpp"
+
+namespace thixis::drive {
+
+using Versions = std::vector<std::pair<std::string, std::string>>;
+
+/// Makes the output directory and begins its log. `goes_on`: behind the files of the interrupted run.
+void open(const output::RunDirectory& directory, const RunParams& params, bool goes_on, const core::Comm& comm);
+/// Says what is run.
+void introduce(const core::Deck& deck, const models::Model& model, const core::Comm& comm, const Versions& versions);
+
+/// The columns of the log's tables: eta_disc, eta_lin, eta_alg, bound; spaces where there is no estimate.
+std::string estimate_header();
+std::string estimate_columns(const std::optional<complementarity::Estimate>& eta);
+void set_estimate(output::HistoryRow& row, const std::optional<complementarity::Estimate>& eta);
+
+/// The cell fields of the estimate that the deck asks for.
+void add_estimates(const OutputParams& params, const models::CellEstimates& cells, const output::Grid& grid,
+                   std::vector<output::FieldData>& fields);
+
+output::SummaryEstimate parts(const complementarity::Estimate& eta);
+/// A summary with what does not depend on the kind of the scene: verdict, model, method, ranks, times, memory, versions.
+output::Summary begin_summary(const RunParams& params, const models::Model& model, const Verdict& verdict, const core::Comm& comm,
+                              double seconds, const Versions& versions);
+
+/// Table of times, folder, verdict: the end of the log.
+core::ExitCode conclude(const output::RunDirectory& directory, const Verdict& verdict, const std::string& invitation,
+                        const core::Comm& comm, double seconds);
+
+}  // namespace thixis::drive

@@ -1,0 +1,114 @@
+#include "run_stationary.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "checkpoint.hpp"
+#include "follow.hpp"
+#include "thixis/core/log.hpp"
+#include "thixis/core/timer.hpp"
+
+namespace thixis::drive {
+namespace {
+
+using core::ExitCode;
+namespace log = core::log;
+
+/// Where a restart goes on from.
+void say_where(const output::StoredCheckpoint& stored) {
+  const Position from = position_of(stored);
+  log::info("goes on from level {}, Newton step {} ({} steps on all levels)", from.level, from.newton_on_level, from.newton_iterations);
+}
+
+/// How to go on, as a command: with more steps where those were too few.
+std::string invitation(const std::string& checkpoint, const RunParams& params, const Outcome& outcome) {
+  const int most = params.newton.max_iterations;
+  const bool too_few = !outcome.solved && outcome.finest.steps >= most;
+  return fmt::format("the last iterate is kept; to go on from it: thixis restart {}{}", checkpoint,
+                     too_few ? fmt::format(" --set \"newton/max iterations={}\"", std::max(50, 2 * most)) : "");
+}
+
+output::Summary summarize(const RunParams& params, const models::Model& model, const Outcome& outcome, const Verdict& verdict,
+                          const core::Comm& comm, double seconds, const Versions& versions) {
+  output::Summary summary = begin_summary(params, model, verdict, comm, seconds, versions);
+  const auto sizes = outcome.discretization->sizes();
+  summary.cells = outcome.mesh->global_cells;
+  summary.unknowns.all = sizes.unknowns_all;
+  summary.unknowns.global = sizes.unknowns_global;
+  summary.nonzeros = sizes.nonzeros;
+  summary.newton_iterations = outcome.at.newton_iterations;
+  summary.newton_finest = outcome.at.newton_on_level;
+  summary.linear_iterations = outcome.at.linear_iterations;
+  summary.energy_error = outcome.energy_error;
+  if (outcome.estimate) summary.estimate = parts(*outcome.estimate);
+  summary.effectivity = outcome.effectivity();
+  if (outcome.published) {
+    summary.estimate_published = parts(outcome.published->parts);
+    summary.estimate_published->terms = outcome.published->terms;
+    if (outcome.energy_error) summary.effectivity_published = outcome.published->parts.total / *outcome.energy_error;
+  }
+  summary.active_points = outcome.finest.active;
+  if (outcome.kkt) {
+    const auto& kkt = *outcome.kkt;
+    summary.kkt = {kkt.infeasible, kkt.negative, kkt.complementary, kkt.between_nodes, kkt.equilibrium};
+    summary.energy_norm = outcome.energy_norm;
+  }
+  return summary;
+}
+
+void write_fields(const output::RunDirectory& directory, const OutputParams& params, const Outcome& outcome, const core::Comm& comm) {
+  const core::Region region("output");
+  const output::Grid grid = outcome.discretization->grid();
+  std::vector<output::FieldData> fields;
+  if (const auto names = params.model_names(); params.fields == "all" || !names.empty())
+    fields = outcome.discretization->fields(*outcome.X, outcome.finest.active_set, names);
+  if (outcome.estimate) add_estimates(params, outcome.cell_estimates, grid, fields);
+  output::FieldWriter writer(directory.path(), comm);
+  writer.write(grid, fields, 0);
+  writer.close();
+}
+
+}  // namespace
+
+core::ExitCode run_stationary(const RunParams& params, const models::StationaryModel& model, const core::Deck& deck, const core::Comm& comm,
+                              const Versions& versions, const output::StoredCheckpoint* stored) {
+  const core::Stopwatch clock;
+  mesh::Hierarchy hierarchy;
+  {
+    const core::Region region("mesh");
+    hierarchy = mesh::build(params.mesh, comm, deck.folder());
+  }
+  // what is wrong in the scene on this mesh shows here, before anything is written
+  const bool nested = params.newton.start == complementarity::Start::nested;
+  for (const auto& mesh : hierarchy.levels)
+    if (nested || &mesh == &hierarchy.finest()) model.check(mesh, params.output.model_names());
+
+  const output::RunDirectory directory(params.output.directory);
+  CheckpointFile checkpoint(directory.checkpoint(), params, deck, hierarchy);
+  if (stored) {
+    replay(*stored, hierarchy, checkpoint);
+    check_restart(*stored, params, hierarchy);
+  }
+  const bool goes_on = stored && same_directory(*stored, directory.path());
+  open(directory, params, goes_on, comm);
+  introduce(deck, model, comm, versions);
+  if (stored) say_where(*stored);
+  if (!goes_on) remove_file(checkpoint.path(), comm);
+
+  output::History history =
+      output::History::go_on(directory.history(), goes_on ? history_rows_of(*stored) : 0, comm, params.output.history);
+  Follow follow(history, checkpoint, params, stored ? seconds_of(*stored) : 0);
+  const Outcome outcome = solve_stationary(model, hierarchy, params, follow.observer(), stored);
+  const Verdict verdict = judge(params, outcome);
+  const bool to_be_kept = verdict.code == ExitCode::not_converged || (params.output.checkpoint_every > 0 && !outcome.not_wanted);
+  const bool kept = to_be_kept && follow.save(outcome.at, *outcome.discretization, *outcome.X);
+
+  if (!outcome.not_wanted && !params.output.no_fields()) write_fields(directory, params.output, outcome, comm);
+  const auto summary = summarize(params, model, outcome, verdict, comm, clock.seconds(), versions);
+  summary.write(directory.summary(), comm);
+  const bool invite = kept && verdict.code == ExitCode::not_converged;
+  return conclude(directory, verdict, invite ? invitation(checkpoint.path(), params, outcome) : "", comm, clock.seconds());
+}
+
+}  // namespace thixis::drive

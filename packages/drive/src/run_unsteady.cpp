@@ -1,0 +1,169 @@
+#include "run_unsteady.hpp"
+
+#include <fmt/format.h>
+
+#include <Teuchos_RCP.hpp>
+
+#include "checkpoint.hpp"
+#include "expectations.hpp"
+#include "follow_evolution.hpp"
+#include "interrupt.hpp"
+#include "thixis/core/timer.hpp"
+
+namespace thixis::drive {
+namespace {
+
+using core::ExitCode;
+namespace log = core::log;
+
+void say_where(const TimePosition& from) {
+  log::info("goes on from time {:.6g}, behind step {} ({} Newton steps so far)", from.time, from.step, from.newton_iterations);
+}
+
+std::optional<double> effectivity(const models::Evolution& evolution) {
+  const auto error = evolution.energy_error();
+  const auto bound = evolution.estimate_so_far();
+  if (!error || !bound) return {};
+  return bound->total / *error;
+}
+
+Found found(const models::Evolution& evolution, const EvolutionOutcome& outcome) {
+  Found found;
+  found.solved = !outcome.not_wanted;
+  if (found.solved) {
+    found.energy_error = evolution.energy_error();
+    if (outcome.kkt) found.kkt = outcome.kkt->worst();
+    if (const auto bound = evolution.estimate_so_far()) found.bound = bound->total;
+    found.effectivity = effectivity(evolution);
+    found.newton_iterations = outcome.at.newton_iterations;
+    found.linear_iterations = outcome.at.linear_iterations;
+    found.steps = outcome.at.step;
+    found.retries = outcome.at.retries;
+    for (const models::Balance& balance : evolution.balances())
+      (balance.name == "water" ? found.water_balance : found.hydrogen_balance) = balance.worst_step;
+    found.front = evolution.front(*outcome.X);
+  }
+  found.unknowns = evolution.sizes().unknowns_all;
+  found.cells = evolution.cells();
+  return found;
+}
+
+/// What is known of the error and of the solution, in clauses.
+std::string qualities(const RunParams& params, const models::Evolution& evolution, const EvolutionOutcome& outcome) {
+  std::string clauses;
+  if (const auto error = evolution.energy_error()) clauses += fmt::format("; energy error {:.4e}", *error);
+  if (const auto bound = evolution.estimate_so_far()) clauses += fmt::format("; {} {:.4e}", evolution.bound_name(), bound->total);
+  for (const models::Balance& balance : evolution.balances())
+    clauses += fmt::format("; {} balanced to {:.1e} in every step", balance.name, balance.worst_step);
+  if (outcome.kkt) {
+    const bool judged = params.stopping.rule != complementarity::StoppingRule::adaptive;
+    const char* unjudged = judged || outcome.kkt->holds(outcome.kkt_tolerance) ? "" : ", which the rule adaptive does not judge";
+    clauses += fmt::format("; contact conditions hold to {:.1e}{}", outcome.kkt->worst(), unjudged);
+  }
+  return clauses;
+}
+
+std::string effort(const TimePosition& at) {
+  return fmt::format("{} time step{}, {} Newton step{} and {} Krylov iteration{}", at.step, at.step == 1 ? "" : "s", at.newton_iterations,
+                     at.newton_iterations == 1 ? "" : "s", at.linear_iterations, at.linear_iterations == 1 ? "" : "s") +
+         (at.retries > 0 ? fmt::format(" ({} attempt{} given up)", at.retries, at.retries == 1 ? "" : "s") : "");
+}
+
+Verdict judge(const RunParams& params, const models::Evolution& evolution, const EvolutionOutcome& outcome) {
+  const std::string clauses = fmt::format("{}", fmt::join(missed(params.expect, found(evolution, outcome)), "; "));
+  if (outcome.not_wanted) {
+    if (!clauses.empty()) return {ExitCode::target_missed, "not solved (max iterations = 0), and not as expected: " + clauses + "."};
+    return {ExitCode::done, "not solved: max iterations = 0 only counts the unknowns."};
+  }
+  if (!outcome.stopped.empty())
+    return {ExitCode::interrupted,
+            fmt::format("{} at time {:.6g} of {:.6g}, after {}.", outcome.stopped, outcome.at.time, params.time->end, effort(outcome.at))};
+  if (!outcome.solved) return {ExitCode::not_converged, "not converged: " + outcome.why};
+  if (params.stopping.rule != complementarity::StoppingRule::adaptive && outcome.kkt && !outcome.kkt->holds(outcome.kkt_tolerance))
+    return {ExitCode::not_converged, "not converged: Newton stopped. " + outcome.kkt->sentence(outcome.kkt_tolerance)};
+  const auto bound = evolution.estimate_so_far();
+  if (params.stopping.target && bound && bound->total > *params.stopping.target)
+    return {ExitCode::target_missed,
+            fmt::format("target missed: {} {:.4e}, not {:g}{}{}.", evolution.bound_name(), bound->total, *params.stopping.target,
+                        outcome.refinement_limited ? "; adapt/max levels or adapt/max unknowns kept the mesh from becoming finer" : "",
+                        clauses.empty() ? "" : "; besides, not as expected: " + clauses)};
+  if (!clauses.empty()) return {ExitCode::target_missed, "solved, but not as expected: " + clauses + "."};
+  return {ExitCode::done, fmt::format("solved in {}{}.", effort(outcome.at), qualities(params, evolution, outcome))};
+}
+
+output::Summary summarize(const RunParams& params, const models::Model& model, const models::Evolution& evolution,
+                          const EvolutionOutcome& outcome, const Verdict& verdict, double seconds, const Versions& versions) {
+  output::Summary summary = begin_summary(params, model, verdict, evolution.comm(), seconds, versions);
+  const auto sizes = evolution.sizes();
+  summary.cells = evolution.cells();
+  summary.unknowns.all = sizes.unknowns_all;
+  summary.unknowns.global = sizes.unknowns_global;
+  summary.nonzeros = sizes.nonzeros;
+  if (outcome.not_wanted) return summary;
+  summary.newton_iterations = outcome.at.newton_iterations;
+  summary.newton_finest = outcome.last.steps;
+  summary.linear_iterations = outcome.at.linear_iterations;
+  summary.energy_error = evolution.energy_error();
+  if (const auto bound = evolution.estimate_so_far()) summary.estimate = parts(*bound);
+  summary.effectivity = effectivity(evolution);
+  summary.active_points = outcome.last.active;
+  if (outcome.kkt) {
+    const auto& kkt = *outcome.kkt;
+    summary.kkt = {kkt.infeasible, kkt.negative, kkt.complementary, kkt.between_nodes, kkt.equilibrium};
+  }
+  summary.in_time = output::SummaryTime{outcome.at.step, outcome.at.retries, outcome.at.time};
+  if (const auto balances = evolution.balances(); !balances.empty()) {
+    summary.flow.emplace();
+    for (const models::Balance& balance : balances) summary.flow->mass_balance.push_back({balance.name, balance.worst_step, balance.total});
+    summary.flow->front = evolution.front(*outcome.X);
+  }
+  return summary;
+}
+
+std::string invitation(const std::string& checkpoint) { return "to go on from the last step: thixis restart " + checkpoint; }
+
+}  // namespace
+
+core::ExitCode run_unsteady(const RunParams& params, const models::UnsteadyModel& model, const core::Deck& deck, const core::Comm& comm,
+                            const Versions& versions, const output::StoredCheckpoint* stored) {
+  const core::Stopwatch clock;
+  // what is wrong in the scene on this mesh shows here, before anything is written
+  std::unique_ptr<models::Evolution> evolution;
+  {
+    const core::Region region("mesh");
+    evolution = model.evolve(params.mesh, comm, deck.folder(), params.output.model_names());
+  }
+  const StoredEvolution from = stored ? stored_evolution(*stored) : StoredEvolution{};
+
+  const output::RunDirectory directory(params.output.directory);
+  const EvolutionCheckpoint checkpoint(directory.checkpoint(), params, deck);
+  const bool goes_on = stored && same_directory(*stored, directory.path());
+  open(directory, params, goes_on, comm);
+  introduce(deck, model, comm, versions);
+  if (stored) say_where(from.at);
+  log::info("{} cells, {} unknowns ({} in the linear system)", evolution->cells(), evolution->sizes().unknowns_all,
+            evolution->sizes().unknowns_global);
+  if (!goes_on) remove_file(checkpoint.path(), comm);
+
+  EvolutionOutcome outcome;
+  std::string invite;
+  if (params.newton.max_iterations == 0) {
+    outcome = evolve(*evolution, params, {});
+  } else {
+    const Interrupt listens;
+    Written before = goes_on ? from.written : Written{};
+    before.seconds = from.written.seconds;
+    FollowEvolution follow(directory, params, *evolution, checkpoint, before, from.at.time);
+    outcome = evolve(*evolution, params, follow.observer(), stored);
+    const bool failed = outcome.stopped.empty() && !outcome.solved;
+    if (failed || (outcome.solved && params.output.checkpoint_every > 0))
+      follow.save(outcome.at, outcome.next_length, *evolution, *outcome.X);
+    if (!outcome.solved) invite = invitation(checkpoint.path());
+    follow.finish(*evolution, outcome);
+  }
+  const Verdict verdict = judge(params, *evolution, outcome);
+  summarize(params, model, *evolution, outcome, verdict, clock.seconds(), versions).write(directory.summary(), comm);
+  return conclude(directory, verdict, invite, comm, clock.seconds());
+}
+
+}  // namespace thixis::drive

@@ -1,0 +1,258 @@
+#include "thixis/fv/nodal_average.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "thixis/algebra/tpetra.hpp"
+
+namespace thixis::fv {
+namespace {
+
+using algebra::MultiVector;
+using Range = Kokkos::RangePolicy<MultiVector::execution_space>;
+
+/// Lists of equal meaning one after the other: entries begin(i), ..., begin(i + 1) - 1 belong to i.
+struct Lists {
+  View<LocalIndex*> begin, entry;
+};
+
+Lists lists(const std::vector<std::vector<LocalIndex>>& of, const std::string& name) {
+  Lists out{View<LocalIndex*>("thixis::fv::" + name + "_begin", of.size() + 1), {}};
+  const auto begin = Kokkos::create_mirror_view(out.begin);
+  begin(0) = 0;
+  for (std::size_t i = 0; i < of.size(); ++i) begin(i + 1) = begin(i) + static_cast<LocalIndex>(of[i].size());
+  out.entry = View<LocalIndex*>("thixis::fv::" + name, begin(of.size()));
+  const auto entry = Kokkos::create_mirror_view(out.entry);
+  LocalIndex next = 0;
+  for (const auto& list : of)
+    for (const LocalIndex i : list) entry(next++) = i;
+  Kokkos::deep_copy(out.begin, begin);
+  Kokkos::deep_copy(out.entry, entry);
+  return out;
+}
+
+/// sums(node, j) = sum over the owned cells around it of p_j there; sums(node, m + j) = sum over the held faces of the values given.
+struct Gather {
+  Lists cells, held;
+  View<const double*[2]> centre, position;
+  View<const Quadratic**> p;
+  View<const double**> given;
+  MultiVector::dual_view_type::t_dev sums;  ///< out, overwritten
+
+  KOKKOS_FUNCTION void operator()(LocalIndex node) const {
+    const int m = p.extent_int(1);
+    for (int j = 0; j < 2 * m; ++j) sums(node, j) = 0;
+    for (LocalIndex k = cells.begin(node); k < cells.begin(node + 1); ++k) {
+      const LocalIndex K = cells.entry(k);
+      const double y[2] = {position(node, 0) - centre(K, 0), position(node, 1) - centre(K, 1)};
+      for (int j = 0; j < m; ++j) sums(node, j) += p(K, j)(y);
+    }
+    for (LocalIndex k = held.begin(node); k < held.begin(node + 1); ++k)
+      for (int j = 0; j < m; ++j) sums(node, m + j) += given(held.entry(k), j);
+  }
+};
+
+/// |grad d|² of the function with these values at the nodes and 0 at the centre.
+KOKKOS_INLINE_FUNCTION double interval_energy(double a, double b, double h) { return (7 * a * a + 2 * a * b + 7 * b * b) / (3 * h); }
+
+KOKKOS_INLINE_FUNCTION double rectangle_energy(const double d[3][3], double h_x, double h_y) {
+  constexpr double stiffness[3][3] = {{7, -8, 1}, {-8, 16, -8}, {1, -8, 7}}, mass[3][3] = {{4, 2, -1}, {2, 16, 2}, {-1, 2, 4}};
+  double x = 0, y = 0;
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; ++k)
+      for (int j = 0; j < 3; ++j)
+        for (int l = 0; l < 3; ++l) {
+          const double dd = d[i][j] * d[k][l];
+          x += stiffness[i][k] * mass[j][l] * dd;
+          y += mass[i][k] * stiffness[j][l] * dd;
+        }
+  return (x * h_y / h_x + y * h_x / h_y) / 90;
+}
+
+/// corner[i], and middle[i] at the midpoint of the side opposite to corner i, whose outward normal times its length is n[i].
+KOKKOS_INLINE_FUNCTION double triangle_energy(const double corner[3], const double middle[3], const double n[3][2], double volume) {
+  double sum = 0;
+  for (int k = 0; k < 3; ++k) {  // at the midpoint k: lambda_k = 0, the others ½; grad lambda_i = -n_i/(2|K|)
+    double v[2] = {0, 0};
+    for (int i = 0; i < 3; ++i) {
+      const int a = (i + 1) % 3, b = (i + 2) % 3;
+      const double by_corner = i == k ? -1 : 1, lambda_a = a == k ? 0 : 0.5, lambda_b = b == k ? 0 : 0.5;
+      for (int c = 0; c < 2; ++c)
+        v[c] -= (corner[i] * by_corner * n[i][c] + 4 * middle[i] * (lambda_a * n[b][c] + lambda_b * n[a][c])) / (2 * volume);
+    }
+    sum += v[0] * v[0] + v[1] * v[1];
+  }
+  return volume * sum / 3;
+}
+
+struct Distance {
+  RaviartThomas cells;
+  View<const LocalIndex**> corners;   ///< nodes of the corners of owned cells
+  View<const LocalIndex*> face_node;  ///< nodes of midpoints
+  View<const double* [2]> position;
+  View<const double* [2]> count;  ///< of cells and of held faces around a node, on all ranks
+  View<const Quadratic**> p;
+  MultiVector::dual_view_type::t_dev sums;
+  int dimension;
+  View<double**> square;  ///< out, overwritten
+
+  KOKKOS_FUNCTION double difference(LocalIndex K, int j, LocalIndex node) const {
+    const int m = p.extent_int(1);
+    const double y[2] = {position(node, 0) - cells.centre(K, 0), position(node, 1) - cells.centre(K, 1)};
+    const double average = count(node, 1) > 0 ? sums(node, m + j) / count(node, 1) : sums(node, j) / count(node, 0);
+    return p(K, j)(y) - average;
+  }
+  KOKKOS_FUNCTION int side(double y) const { return y > 0 ? 2 : 0; }
+
+  KOKKOS_FUNCTION double rectangle(LocalIndex K, int j) const {
+    double d[3][3] = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}}, width[2] = {1, 1};
+    for (int i = 0; i < 4; ++i) {
+      const LocalIndex v = corners(K, i), F = cells.face(K, i);
+      d[side(position(v, 0) - cells.centre(K, 0))][side(position(v, 1) - cells.centre(K, 1))] = difference(K, j, v);
+      const int axis = cells.axis(F), at = side(cells.face_centre(F, axis) - cells.centre(K, axis));
+      (axis == 0 ? d[at][1] : d[1][at]) = difference(K, j, face_node(F));
+      width[axis] = cells.volume(K) / cells.area(F);
+    }
+    return rectangle_energy(d, width[0], width[1]);
+  }
+
+  KOKKOS_FUNCTION double triangle(LocalIndex K, int j) const {
+    double corner[3], middle[3], n[3][2];
+    for (int i = 0; i < 3; ++i) {
+      const LocalIndex v = corners(K, i);
+      corner[i] = difference(K, j, v);
+      int opposite = 0;
+      double farthest = -1;
+      for (int f = 0; f < 3; ++f) {
+        const LocalIndex F = cells.face(K, f);
+        const double away = -cells.sign(K, f) *
+                            ((position(v, 0) - cells.face_centre(F, 0)) * cells.normal(F, 0) +
+                             (position(v, 1) - cells.face_centre(F, 1)) * cells.normal(F, 1)) *
+                            cells.area(F);
+        if (away > farthest) {
+          farthest = away;
+          opposite = f;
+        }
+      }
+      const LocalIndex F = cells.face(K, opposite);
+      middle[i] = difference(K, j, face_node(F));
+      for (int c = 0; c < 2; ++c) n[i][c] = cells.sign(K, opposite) * cells.normal(F, c) * cells.area(F);
+    }
+    return triangle_energy(corner, middle, n, cells.volume(K));
+  }
+
+  KOKKOS_FUNCTION void operator()(LocalIndex K) const {
+    for (int j = 0; j < p.extent_int(1); ++j)
+      square(K, j) = dimension == 1    ? interval_energy(difference(K, j, corners(K, 0)), difference(K, j, corners(K, 1)), cells.volume(K))
+                     : cells.triangles ? triangle(K, j)
+                                       : rectangle(K, j);
+  }
+};
+
+}  // namespace
+
+struct NodalAverage::Impl {
+  Grid grid;
+  Lists cells, held;  ///< owned cells and held faces around each node
+  View<LocalIndex**> corners;
+  View<LocalIndex*> face_node;
+  View<double*[2]> position, count;
+  algebra::MapPtr nodes, unique;
+  Teuchos::RCP<const algebra::Import> import;
+
+  Impl(const Grid& on, const std::vector<bool>& held_faces)
+      : grid(on), corners("thixis::fv::corner_nodes", on.owned_cells, on.corners()), face_node("thixis::fv::face_nodes", on.faces) {
+    const auto host = [](const auto& view) { return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), view); };
+    const auto begin = host(grid.cell_face_begin), faces = host(grid.cell_faces);
+    const auto vertices = host(grid.cell_vertices);
+    const auto vertex = host(grid.vertex), face_centre = host(grid.face_centre), normal = host(grid.face_normal);
+    const auto area = host(grid.face_area);
+    const auto face_cells = host(grid.face_cells);
+    const auto corners_host = Kokkos::create_mirror_view(corners);
+    const auto face_node_host = Kokkos::create_mirror_view(face_node);
+
+    std::vector<LocalIndex> node_of_vertex(grid.vertices, -1);
+    std::vector<GlobalIndex> ids;
+    std::vector<std::array<double, 2>> places;
+    std::vector<std::vector<LocalIndex>> cells_around, held_around;
+    const auto add = [&](GlobalIndex id, double x, double y) {
+      ids.push_back(id);
+      places.push_back({x, y});
+      cells_around.emplace_back();
+      held_around.emplace_back();
+      return static_cast<LocalIndex>(ids.size() - 1);
+    };
+    for (LocalIndex K = 0; K < grid.owned_cells; ++K)
+      for (int i = 0; i < grid.corners(); ++i) {
+        const LocalIndex v = vertices(K, i);
+        if (node_of_vertex[v] < 0) node_of_vertex[v] = add(grid.vertex_id[v], vertex(v, 0), vertex(v, 1));
+        corners_host(K, i) = node_of_vertex[v];
+        cells_around[node_of_vertex[v]].push_back(K);
+      }
+    for (LocalIndex F = 0; F < grid.faces; ++F)  // in one dimension its vertex
+      face_node_host(F) = grid.dimension == 1 ? -1 : add(grid.global_vertices + grid.face_id[F], face_centre(F, 0), face_centre(F, 1));
+    for (LocalIndex K = 0; K < grid.owned_cells; ++K)
+      for (LocalIndex f = begin(K); f < begin(K + 1); ++f) {
+        const LocalIndex F = faces(f);
+        if (grid.dimension == 2) cells_around[face_node_host(F)].push_back(K);
+        if (!held_faces[F]) continue;
+        if (grid.dimension == 2) held_around[face_node_host(F)].push_back(F);
+        for (int i = 0; i < grid.corners(); ++i) {
+          const LocalIndex v = vertices(K, i);
+          double off = 0;
+          for (int c = 0; c < 2; ++c) off += (vertex(v, c) - face_centre(F, c)) * normal(F, c);
+          const double width = grid.dimension == 1 ? std::abs(vertex(vertices(K, 1), 0) - vertex(vertices(K, 0), 0)) : area(F);
+          if (std::abs(off) <= 1e-6 * width) held_around[corners_host(K, i)].push_back(F);
+        }
+      }
+    Kokkos::deep_copy(corners, corners_host);
+    Kokkos::deep_copy(face_node, face_node_host);
+    cells = lists(cells_around, "node_cells");
+    held = lists(held_around, "node_faces");
+    position = View<double* [2]>("thixis::fv::node_position", ids.size());
+    const auto position_host = Kokkos::create_mirror_view(position);
+    for (std::size_t i = 0; i < ids.size(); ++i)
+      for (int c = 0; c < 2; ++c) position_host(i, c) = places[i][c];
+    Kokkos::deep_copy(position, position_host);
+
+    nodes = algebra::map_of(ids, grid.comm);
+    unique = Tpetra::createOneToOne(nodes);
+    import = Teuchos::rcp(new algebra::Import(unique, nodes));
+    MultiVector counts(nodes, 2);
+    {
+      const auto values = counts.getLocalViewHost(Tpetra::Access::OverwriteAll);
+      for (std::size_t i = 0; i < ids.size(); ++i) {
+        values(i, 0) = static_cast<double>(cells_around[i].size());
+        values(i, 1) = static_cast<double>(held_around[i].size());
+      }
+    }
+    add_up(counts);
+    count = View<double* [2]>("thixis::fv::node_count", ids.size());
+    Kokkos::deep_copy(count, std::as_const(counts).getLocalViewDevice(Tpetra::Access::ReadOnly));
+  }
+
+  /// What ranks have at shared nodes is summed up, everywhere.
+  void add_up(MultiVector& values) const {
+    if (grid.comm.size() == 1) return;
+    MultiVector sums(unique, values.getNumVectors());
+    sums.doExport(values, *import, Tpetra::ADD);
+    values.doImport(sums, *import, Tpetra::INSERT);
+  }
+};
+
+NodalAverage::NodalAverage(const Grid& grid, const std::vector<bool>& held) : impl_(std::make_unique<Impl>(grid, held)) {}
+NodalAverage::~NodalAverage() = default;
+
+void NodalAverage::operator()(const View<const Quadratic**>& p, const View<const double**>& given, const View<double**>& square) const {
+  const Impl& in = *impl_;
+  MultiVector sums(in.nodes, 2 * p.extent(1));
+  Kokkos::parallel_for(
+      "thixis::fv::gather_nodes", Range(0, in.position.extent_int(0)),
+      Gather{in.cells, in.held, in.grid.centre, in.position, p, given, sums.getLocalViewDevice(Tpetra::Access::OverwriteAll)});
+  in.add_up(sums);
+  Kokkos::parallel_for("thixis::fv::distance_from_average", Range(0, in.grid.owned_cells),
+                       Distance{RaviartThomas(in.grid), in.corners, in.face_node, in.position, in.count, p,
+                                sums.getLocalViewDevice(Tpetra::Access::ReadWrite), in.grid.dimension, square});
+}
+
+}  // namespace thixis::fv

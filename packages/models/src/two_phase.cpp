@@ -1,0 +1,228 @@
+#include "thixis/models/two_phase.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "thixis/core/error.hpp"
+#include "thixis/core/text.hpp"
+#include "thixis/core/timer.hpp"
+#include "thixis/fv/host.hpp"
+#include "two_phase_balance.hpp"
+#include "two_phase_probes.hpp"
+#include "two_phase_problem.hpp"
+
+namespace thixis::models {
+namespace {
+
+using algebra::Vector;
+
+constexpr double trace_of_gas = 1e-8;  // s_g beyond which a cell counts as two-phase
+
+const std::vector<std::string>& names_of_unknowns() {
+  static const std::vector<std::string> names = {"s_g", "P", "chi"};
+  return names;
+}
+const std::vector<std::string>& names_of_fields() {
+  static const std::vector<std::string> names = {"s_g", "p_l", "p_g", "chi", "phase"};
+  return names;
+}
+
+/// Size of the pressures that matter: the largest one at the beginning. Collective.
+double reference_pressure(const TwoPhaseOperator& flow, const Vector& X0) {
+  const auto x = algebra::host_view(X0);
+  double largest = 0;
+  for (LocalIndex K = 0; K < flow.grid().owned_cells; ++K) largest = std::max(largest, std::abs(x(unknowns_per_cell * K + pressure)));
+  largest = flow.grid().comm.max(largest);
+  return largest > 0 ? largest : flow.laws().P_r;
+}
+
+class TwoPhaseEvolution final : public Evolution {
+ public:
+  TwoPhaseEvolution(fv::Grid grid, const scene::TwoPhaseScene& scene, const algebra::LinearParams& linear, double seconds_per_unit,
+                    const std::vector<double>& probes)
+      : flow_(std::move(grid), scene, seconds_per_unit),
+        initial_(flow_.initial()),
+        problem_(flow_, FlowScales(flow_.laws(), reference_pressure(flow_, *initial_)), linear, initial_),
+        balance_(flow_),
+        probes_(flow_.grid(), probes) {}
+
+  const core::Comm& comm() const override { return flow_.grid().comm; }
+  GlobalIndex cells() const override { return flow_.grid().global_cells; }
+  Sizes sizes() const override {
+    const GlobalIndex unknowns = unknowns_per_cell * cells();
+    return {unknowns, unknowns, problem_.nonzeros()};
+  }
+
+  Teuchos::RCP<Vector> initial() override { return Teuchos::rcp(new Vector(*initial_, Teuchos::Copy)); }
+  void begin(const TimeStep& step, const Vector& before) override {
+    const core::Region region("assembly");
+    problem_.begin(flow_.step(step.begin, step.end, before));
+  }
+  complementarity::Problem& problem() override { return problem_; }
+
+  complementarity::Estimate estimate(const Vector&) override {
+    throw core::InputError("stopping/estimate: this version has no bound for two-phase flow; write stopping/rule = exact or inexact.");
+  }
+  CellEstimates cell_estimates() const override { return {}; }
+
+  void accept(const Vector& X) override { balance_.add(problem_.step(), X); }
+  std::vector<Balance> balances() const override { return balance_.balances(); }
+
+  complementarity::KktData kkt_data(const Vector& X) const override;
+
+  /// The right end of the gas: where the cells with gas end, or the left end of the domain if there is none.
+  std::optional<double> front(const Vector& X) const override {
+    const auto grid = fv::on_host(flow_.grid());
+    const auto x = algebra::host_view(X);
+    double left = std::numeric_limits<double>::infinity(), right = -left;
+    for (LocalIndex K = 0; K < flow_.grid().owned_cells; ++K)
+      for (int i = 0; i < flow_.grid().corners(); ++i) {
+        const double at = grid.vertex(grid.cell_vertices(K, i), 0);
+        left = std::min(left, at);
+        if (x(unknowns_per_cell * K + gas_saturation) > trace_of_gas) right = std::max(right, at);
+      }
+    left = comm().min(left);
+    return std::max(left, comm().max(right));
+  }
+
+  std::vector<std::string> series_names() const override {
+    std::vector<std::string> names;
+    for (int i = 0; i < probes_.count(); ++i)
+      for (const char* name : {"s_g", "p_l", "p_g"}) names.push_back(i == 0 ? name : fmt::format("{}_{}", name, i + 1));
+    return names;
+  }
+  std::vector<double> series(const Vector& X) const override {
+    std::vector<double> values;
+    for (const auto& at : probes_(X)) {
+      const PhaseState state = flow_.laws().state(at[gas_saturation], at[pressure], at[dissolved]);
+      values.insert(values.end(), {state.s_g, state.P, state.P_g.value});
+    }
+    return values;
+  }
+
+  output::Grid grid() const override { return fv::display(flow_.grid()); }
+  std::vector<output::FieldData> fields(const Vector& X, const complementarity::ActiveSet& active,
+                                        const std::vector<std::string>& names) const override;
+
+  EvolutionState save(const Vector& X) const override {
+    EvolutionState state{{}, balance_.save()};
+    const auto x = algebra::host_view(X);
+    for (int u = 0; u < unknowns_per_cell; ++u) {
+      output::CheckpointBlock block{names_of_unknowns()[u], owned_ids(), {}};
+      for (LocalIndex K = 0; K < flow_.grid().owned_cells; ++K) block.values.push_back(x(unknowns_per_cell * K + u));
+      state.blocks.push_back(std::move(block));
+    }
+    return state;
+  }
+
+  Teuchos::RCP<Vector> restore(const output::StoredCheckpoint& stored) override {
+    const auto X = Teuchos::rcp(new Vector(flow_.map()));
+    const auto x = algebra::host_overwrite(*X);
+    for (int u = 0; u < unknowns_per_cell; ++u) {
+      const std::string& name = names_of_unknowns()[u];
+      if (stored.size(name) != cells())
+        throw core::InputError(fmt::format("The checkpoint '{}' belongs to another model or mesh: it holds {}, the deck asks for {} cells; "
+                                           "leave scene and mesh as they were.",
+                                           stored.path(),
+                                           stored.size(name) < 0 ? fmt::format("no '{}'", name)
+                                                                 : fmt::format("{} values of '{}'", stored.size(name), name),
+                                           cells()));
+      const auto values = stored.fetch(name, owned_ids());
+      for (LocalIndex K = 0; K < flow_.grid().owned_cells; ++K) x(unknowns_per_cell * K + u) = values[K];
+    }
+    balance_.restore(stored);
+    return X;
+  }
+
+ private:
+  std::vector<GlobalIndex> owned_ids() const {
+    const auto& ids = flow_.grid().cell_id;
+    return {ids.begin(), ids.begin() + flow_.grid().owned_cells};
+  }
+
+  TwoPhaseOperator flow_;
+  Teuchos::RCP<Vector> initial_;
+  TwoPhaseProblem problem_;
+  TwoPhaseBalance balance_;
+  TwoPhaseProbes probes_;
+};
+
+/// The multiplier is G/(H P_ref), the gap s_g; both are of size 1 where they matter, but for saturations of a small gas zone.
+complementarity::KktData TwoPhaseEvolution::kkt_data(const Vector& X) const {
+  const auto gap = Teuchos::rcp(new Vector(flow_.cells())), claimed = Teuchos::rcp(new Vector(flow_.cells())),
+             recomputed = Teuchos::rcp(new Vector(flow_.cells()));
+  const double unit = 1 / (flow_.laws().H * problem_.scales().pressure);
+  problem_.arguments(X, *gap, *claimed);
+  claimed->scale(unit);
+  const auto states = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), flow_.states(X));
+  double largest = 0;
+  {
+    const auto out = algebra::host_overwrite(*recomputed);
+    for (LocalIndex K = 0; K < flow_.grid().owned_cells; ++K) {
+      out(K) = unit * flow_.laws().undersaturation(states(K));
+      largest = std::max(largest, std::abs(states(K).s_g));
+    }
+  }
+  Vector R(flow_.map());
+  if (problem_.step().length > 0) problem_.equations(X, R);
+  complementarity::KktData data;
+  data.gap = gap;
+  data.claimed = claimed;
+  data.equilibrium = {recomputed};
+  data.unbalanced = R.normInf();
+  data.gap_scale = std::max(comm().max(largest), 1e-2);
+  return data;
+}
+
+std::vector<output::FieldData> TwoPhaseEvolution::fields(const Vector& X, const complementarity::ActiveSet&,
+                                                         const std::vector<std::string>& names) const {
+  const auto states = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), flow_.states(X));
+  std::vector<output::FieldData> shown;
+  const auto add = [&](const std::string& name, auto value) {
+    if (!names.empty() && std::find(names.begin(), names.end(), name) == names.end()) return;
+    output::FieldData field{name, output::Centre::cell, {}};
+    for (LocalIndex K = 0; K < flow_.grid().owned_cells; ++K) field.values.push_back(value(states(K)));
+    shown.push_back(std::move(field));
+  };
+  add("s_g", [](const PhaseState& U) { return U.s_g; });
+  add("p_l", [](const PhaseState& U) { return U.P; });
+  add("p_g", [](const PhaseState& U) { return U.P_g.value; });
+  add("chi", [](const PhaseState& U) { return U.chi; });
+  add("phase", [](const PhaseState& U) { return U.s_g > trace_of_gas ? 1.0 : 0.0; });
+  return shown;
+}
+
+class TwoPhaseModel final : public UnsteadyModel {
+ public:
+  TwoPhaseModel(scene::TwoPhaseScene scene, algebra::LinearParams linear, double seconds_per_unit, std::vector<double> probes)
+      : scene_(std::move(scene)), linear_(linear), seconds_per_unit_(seconds_per_unit), probes_(std::move(probes)) {}
+
+  std::string name() const override { return "two-phase"; }
+  std::string case_name() const override { return scene_.name == "flow" ? "" : scene_.name; }
+
+  std::unique_ptr<Evolution> evolve(const mesh::MeshParams& mesh, const core::Comm& comm, const std::string& folder,
+                                    const std::vector<std::string>& field_names) const override {
+    for (const auto& name : field_names)
+      if (std::find(names_of_fields().begin(), names_of_fields().end(), name) == names_of_fields().end())
+        throw core::InputError(fmt::format("output/fields: there is no field '{}'; write all, none, or some of {}.", name, core::join(names_of_fields())));
+    return std::make_unique<TwoPhaseEvolution>(fv::build(mesh, comm, folder), scene_, linear_, seconds_per_unit_, probes_);
+  }
+
+ private:
+  scene::TwoPhaseScene scene_;
+  algebra::LinearParams linear_;
+  double seconds_per_unit_;
+  std::vector<double> probes_;
+};
+
+}  // namespace
+
+std::unique_ptr<UnsteadyModel> two_phase(scene::TwoPhaseScene scene, algebra::LinearParams linear, double seconds_per_unit,
+                                         std::vector<double> probes) {
+  return std::make_unique<TwoPhaseModel>(std::move(scene), linear, seconds_per_unit, std::move(probes));
+}
+
+}  // namespace thixis::models

@@ -1,0 +1,50 @@
+#pragma once
+#include <memory>
+
+#include "thixis/complementarity/estimate.hpp"
+#include "thixis/models/evolution.hpp"
+#include "two_phase_problem.hpp"
+
+namespace thixis::models {
+
+/// What the estimate of a step of two-phase flow measures.
+enum class FlowMeasure {
+  residual,   ///< dual norms of the residuals of both components, without units (docs/methods/two_phase_estimates.md, 2 to 5)
+  literature  ///< the sum of the literature, in SI units, whatever they are (likewise, 6)
+};
+
+struct TwoPhaseBoundParams {
+  FlowMeasure measure = FlowMeasure::residual;
+  double time_scale = 2500 * 31557600.;  ///< alpha [s]
+};
+
+/// The estimate of a step of backward Euler at any iterate (docs/methods/two_phase_estimates.md), split into the parts that a finer grid
+/// and shorter steps, further Newton steps, and further Krylov iterations would take away.
+class TwoPhaseBound {
+ public:
+  /// What the grid needs is set up here. `flow` must outlive it. Collective.
+  TwoPhaseBound(const TwoPhaseOperator& flow, const FlowScales& scales, const TwoPhaseBoundParams& params);
+  ~TwoPhaseBound();
+  TwoPhaseBound(const TwoPhaseBound&) = delete;
+  TwoPhaseBound& operator=(const TwoPhaseBound&) = delete;
+
+  /// Estimates are those of this step, from X^{n-1}, from now on. Collective.
+  void begin(const FlowStep& step, const algebra::Vector& before);
+  /// The share of the step at X^{k,i}; `at`: where the system that X solves nearly was linearized, X null: nowhere, X solves none.
+  /// Collective.
+  complementarity::Estimate operator()(const algebra::Vector& X, const TwoPhaseProblem::Linearization& at);
+
+  // Of the last estimate.
+  StepErrors step_errors() const;
+  /// Of the owned cells. phase_transition: mean over the cell and the step of s_g^+ G^+/(H P_ref), which is large where gas comes or goes.
+  struct Cells {
+    fv::View<double*> discretization, linearization, algebraic, phase_transition;
+  };
+  const Cells& cells() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace thixis::models

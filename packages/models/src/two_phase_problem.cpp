@@ -1,0 +1,295 @@
+#include "two_phase_problem.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "thixis/core/timer.hpp"
+
+namespace thixis::models {
+namespace {
+
+using algebra::Vector;
+using Cells = Kokkos::RangePolicy<Vector::execution_space>;
+using LocalMatrix = algebra::Matrix::local_matrix_device_type;
+using In = decltype(std::declval<const Vector&>().getLocalViewDevice(Tpetra::Access::ReadOnly));
+using Out = decltype(std::declval<Vector&>().getLocalViewDevice(Tpetra::Access::ReadWrite));
+
+constexpr int contact_row = 0, first_equation = 1;
+
+In read(const Vector& v) { return v.getLocalViewDevice(Tpetra::Access::ReadOnly); }
+Out write(Vector& v) { return v.getLocalViewDevice(Tpetra::Access::ReadWrite); }
+
+/// The faces around a cell, their areas with the sign of outward fluxes, and the factors tau/(|K| mass_c) of its equations.
+struct Around {
+  fv::View<LocalIndex*> begin, faces;
+  fv::View<LocalIndex* [2]> cells;
+  fv::View<double*> area, volume;
+  double length, mass[components];
+
+  Around(const fv::Grid& grid, double step_length, const FlowScales& scales)
+      : begin(grid.cell_face_begin),
+        faces(grid.cell_faces),
+        cells(grid.face_cells),
+        area(grid.face_area),
+        volume(grid.volume),
+        length(step_length),
+        mass{scales.mass[0], scales.mass[1]} {}
+  KOKKOS_FUNCTION bool first(LocalIndex F, LocalIndex K) const { return cells(F, 0) == K; }
+  KOKKOS_FUNCTION double outward(LocalIndex F, LocalIndex K) const { return first(F, K) ? area(F) : -area(F); }
+};
+
+struct Equations {
+  Around around;
+  TwoPhaseLaws laws;
+  fv::View<PhaseState*> states;
+  fv::View<FaceFlux*> fluxes;
+  fv::View<double* [components]> before, source;
+  Out R;  ///< out, overwritten
+
+  KOKKOS_FUNCTION void operator()(LocalIndex K) const {
+    const Masses l = laws.masses(states(K));
+    double out[components] = {0, 0};
+    for (LocalIndex f = around.begin(K); f < around.begin(K + 1); ++f) {
+      const LocalIndex F = around.faces(f);
+      for (int c = 0; c < components; ++c) out[c] += around.outward(F, K) * fluxes(F).value[c];
+    }
+    R(unknowns_per_cell * K + contact_row, 0) = 0;
+    for (int c = 0; c < components; ++c)
+      R(unknowns_per_cell * K + first_equation + c, 0) =
+          (l.value[c] - before(K, c) + around.length * (out[c] / around.volume(K) - source(K, c))) / around.mass[c];
+  }
+};
+
+/// |F|² over the owned cells.
+struct Reference {
+  Around around;
+  double rock_filled;  ///< phi rho_w: the masses of water are counted from it
+  fv::View<double* [components]> before, source, inflow;
+
+  KOKKOS_FUNCTION void operator()(LocalIndex K, double& sum) const {
+    for (int c = 0; c < components; ++c) {
+      double in = 0;
+      for (LocalIndex f = around.begin(K); f < around.begin(K + 1); ++f)
+        if (around.cells(around.faces(f), 1) < 0) in += around.area(around.faces(f)) * inflow(around.faces(f), c);
+      const double l = before(K, c) + (c == water ? rock_filled : 0);
+      const double F = (l + around.length * (source(K, c) + in / around.volume(K))) / around.mass[c];
+      sum += F * F;
+    }
+  }
+};
+
+struct Fill {
+  Around around;
+  TwoPhaseLaws laws;
+  double unknown[unknowns_per_cell];
+  fv::View<PhaseState*> states;
+  fv::View<FaceFlux*> fluxes;
+  fv::View<LocalIndex*> row_begin, own, place;
+  In a, b;
+  LocalMatrix A;  ///< out, overwritten
+
+  KOKKOS_FUNCTION void operator()(LocalIndex K) const {
+    const LocalIndex contact = row_begin(K), equations = contact + unknowns_per_cell;
+    const LocalIndex row = (row_begin(K + 1) - equations) / components;  // entries of each equation
+    for (LocalIndex k = equations; k < row_begin(K + 1); ++k) A.values(k) = 0;
+
+    double G[unknowns_per_cell];
+    laws.undersaturation_slopes(states(K), G);
+    for (int u = 0; u < unknowns_per_cell; ++u)
+      A.values(contact + u) = unknown[u] * (b(K, 0) * G[u] + (u == gas_saturation ? a(K, 0) : 0));
+
+    const Masses l = laws.masses(states(K));
+    for (int c = 0; c < components; ++c) {
+      double* entries = &A.values(equations + c * row);
+      double* diagonal = entries + unknowns_per_cell * own(K);
+      for (int u = 0; u < unknowns_per_cell; ++u) diagonal[u] = unknown[u] * l.d[c][u] / around.mass[c];
+      const double factor = around.length / (around.volume(K) * around.mass[c]);
+      for (LocalIndex f = around.begin(K); f < around.begin(K + 1); ++f) {
+        const LocalIndex F = around.faces(f);
+        const FaceFlux& flux = fluxes(F);
+        const double out = factor * around.outward(F, K);
+        const auto& by_own = around.first(F, K) ? flux.by_first : flux.by_second;
+        const auto& by_other = around.first(F, K) ? flux.by_second : flux.by_first;
+        for (int u = 0; u < unknowns_per_cell; ++u) diagonal[u] += unknown[u] * out * by_own[c][u];
+        if (place(f) >= 0)
+          for (int u = 0; u < unknowns_per_cell; ++u) entries[unknowns_per_cell * place(f) + u] = unknown[u] * out * by_other[c][u];
+      }
+    }
+  }
+};
+
+Teuchos::RCP<algebra::MultiVector> coordinates_of(const TwoPhaseOperator& flow) {
+  const fv::Grid& grid = flow.grid();
+  const auto coordinates = Teuchos::rcp(new algebra::MultiVector(flow.cells(), grid.dimension));
+  const auto x = coordinates->getLocalViewDevice(Tpetra::Access::OverwriteAll);
+  const auto centre = grid.centre;
+  const int dimension = grid.dimension;
+  Kokkos::parallel_for(
+      "thixis::models::coordinates", Cells(0, grid.owned_cells), KOKKOS_LAMBDA(LocalIndex K) {
+        for (int i = 0; i < dimension; ++i) x(K, i) = centre(K, i);
+      });
+  return coordinates;
+}
+
+}  // namespace
+
+FlowScales::FlowScales(const TwoPhaseLaws& laws, double P_ref)
+    : pressure(P_ref),
+      mass{laws.porosity * laws.rho_w, laws.porosity * laws.H * P_ref},
+      unknown{1, P_ref, laws.H * P_ref / laws.beta_l} {}
+
+TwoPhaseProblem::TwoPhaseProblem(const TwoPhaseOperator& flow, const FlowScales& scales, const algebra::LinearParams& params,
+                                 Teuchos::RCP<const Vector> origin)
+    : flow_(flow), scales_(scales), origin_(std::move(origin)), coordinates_(coordinates_of(flow)), solver_(params) {}
+
+void TwoPhaseProblem::begin(FlowStep step) {
+  step_ = std::move(step);
+  at_ = {};
+  double sum = 0;
+  Kokkos::parallel_reduce("thixis::models::reference", Cells(0, flow_.grid().owned_cells),
+                          Reference{Around(flow_.grid(), step_.length, scales_), flow_.laws().porosity * flow_.laws().rho_w, step_.before,
+                                    step_.source, step_.inflow},
+                          sum);
+  reference_norm_ = std::sqrt(flow_.grid().comm.sum(sum));
+}
+
+void TwoPhaseProblem::equations(const Vector& X, Vector& R) const {
+  const auto states = flow_.states(X);
+  Kokkos::parallel_for("thixis::models::equations", Cells(0, flow_.grid().owned_cells),
+                       Equations{Around(flow_.grid(), step_.length, scales_), flow_.laws(), states, flow_.fluxes(states, step_),
+                                 step_.before, step_.source, write(R)});
+}
+
+void TwoPhaseProblem::arguments(const Vector& X, Vector& K, Vector& G) const {
+  const auto x = read(X);
+  const auto gap = write(K), undersaturation = write(G);
+  const TwoPhaseLaws laws = flow_.laws();
+  Kokkos::parallel_for(
+      "thixis::models::arguments", Cells(0, flow_.grid().owned_cells), KOKKOS_LAMBDA(LocalIndex i) {
+        const LocalIndex k = unknowns_per_cell * i;
+        gap(i, 0) = x(k + gas_saturation, 0);
+        undersaturation(i, 0) = laws.undersaturation(laws.state(x(k, 0), x(k + 1, 0), x(k + 2, 0)));
+      });
+}
+
+void TwoPhaseProblem::scaling(Vector& s) const { s.putScalar(1 / (flow_.laws().H * scales_.pressure)); }
+
+void TwoPhaseProblem::insert(const Vector& C, Vector& R) const {
+  const auto c = read(C);
+  const auto r = write(R);
+  Kokkos::parallel_for(
+      "thixis::models::insert", Cells(0, c.extent_int(0)),
+      KOKKOS_LAMBDA(LocalIndex K) { r(unknowns_per_cell * K + contact_row, 0) = c(K, 0); });
+}
+
+/// The rows of a cell hold itself and its neighbours across faces; that of contact itself alone.
+void TwoPhaseProblem::set_pattern() {
+  const fv::Grid& grid = flow_.grid();
+  const auto host = [](const auto& view) { return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), view); };
+  const auto face_begin = host(grid.cell_face_begin), faces = host(grid.cell_faces);
+  const auto cells = host(grid.face_cells);
+  row_begin_ = fv::View<LocalIndex*>("thixis::models::row_begin", grid.owned_cells + 1);
+  own_ = fv::View<LocalIndex*>("thixis::models::own", grid.owned_cells);
+  place_ = fv::View<LocalIndex*>("thixis::models::place", grid.cell_faces.extent(0));
+  const auto row_begin = Kokkos::create_mirror_view(row_begin_), own = Kokkos::create_mirror_view(own_),
+             place = Kokkos::create_mirror_view(place_);
+
+  std::vector<LocalIndex> entries, group;
+  std::vector<std::size_t> rows = {0};
+  row_begin(0) = 0;
+  for (LocalIndex K = 0; K < grid.owned_cells; ++K) {
+    const auto neighbour = [&](LocalIndex f) { return cells(faces(f), 0) == K ? cells(faces(f), 1) : cells(faces(f), 0); };
+    group = {K};
+    for (LocalIndex f = face_begin(K); f < face_begin(K + 1); ++f)
+      if (neighbour(f) >= 0) group.push_back(neighbour(f));
+    std::sort(group.begin(), group.end());
+    const auto found = [&](LocalIndex L) { return static_cast<LocalIndex>(std::find(group.begin(), group.end(), L) - group.begin()); };
+    own(K) = found(K);
+    for (LocalIndex f = face_begin(K); f < face_begin(K + 1); ++f) place(f) = neighbour(f) < 0 ? -1 : found(neighbour(f));
+
+    const auto add_row = [&](const std::vector<LocalIndex>& of_cells) {
+      for (const LocalIndex L : of_cells)
+        for (int u = 0; u < unknowns_per_cell; ++u) entries.push_back(unknowns_per_cell * L + u);
+      rows.push_back(entries.size());
+    };
+    add_row({K});
+    for (int c = 0; c < components; ++c) add_row(group);
+    row_begin(K + 1) = static_cast<LocalIndex>(entries.size());
+  }
+  Kokkos::deep_copy(row_begin_, row_begin);
+  Kokkos::deep_copy(own_, own);
+  Kokkos::deep_copy(place_, place);
+
+  using LocalGraph = algebra::Graph::local_graph_device_type;
+  const LocalGraph::row_map_type::non_const_type row_map("thixis::models::row_map", rows.size());
+  const LocalGraph::entries_type::non_const_type columns("thixis::models::entries", entries.size());
+  const auto host_rows = Kokkos::create_mirror_view(row_map);
+  const auto host_columns = Kokkos::create_mirror_view(columns);
+  std::copy(rows.begin(), rows.end(), host_rows.data());
+  std::copy(entries.begin(), entries.end(), host_columns.data());
+  Kokkos::deep_copy(row_map, host_rows);
+  Kokkos::deep_copy(columns, host_columns);
+  A_ = Teuchos::rcp(new algebra::Matrix(algebra::make_graph(flow_.map(), flow_.column_map(), row_map, columns)));
+  A_->fillComplete();
+}
+
+void TwoPhaseProblem::linearize(const Vector& X, const Vector& a, const Vector& b) {
+  const core::Region region("assembly");
+  if (A_.is_null()) set_pattern();
+  at_.X = Teuchos::rcp(new Vector(X, Teuchos::Copy));
+  at_.states = flow_.states(X);
+  at_.fluxes = flow_.fluxes(at_.states, step_);
+  const double* unknown = scales_.unknown;
+  Kokkos::parallel_for("thixis::models::jacobian", Cells(0, flow_.grid().owned_cells),
+                       Fill{Around(flow_.grid(), step_.length, scales_),
+                            flow_.laws(),
+                            {unknown[0], unknown[1], unknown[2]},
+                            at_.states,
+                            at_.fluxes,
+                            row_begin_,
+                            own_,
+                            place_,
+                            read(a),
+                            read(b),
+                            A_->getLocalMatrixDevice()});
+  solver_.set_matrix(A_, unknowns_per_cell, coordinates_);
+}
+
+/// X <- D X, or D^{-1} X; D holds the scales of the unknowns.
+void TwoPhaseProblem::scale(Vector& X, bool up) const {
+  const auto x = write(X);
+  double factor[unknowns_per_cell];
+  for (int u = 0; u < unknowns_per_cell; ++u) factor[u] = up ? scales_.unknown[u] : 1 / scales_.unknown[u];
+  Kokkos::parallel_for(
+      "thixis::models::scale", Cells(0, flow_.grid().owned_cells), KOKKOS_LAMBDA(LocalIndex K) {
+        for (int u = 0; u < unknowns_per_cell; ++u) x(unknowns_per_cell * K + u, 0) *= factor[u];
+      });
+}
+
+algebra::LinearReport TwoPhaseProblem::solve(const Vector& R, Vector& dX, const algebra::LinearStop& stop) {
+  Vector minus_R(R, Teuchos::Copy);
+  minus_R.scale(-1);
+  algebra::LinearStop scaled = stop;
+  if (stop.criterion)
+    scaled.criterion = [&](const Vector& y, int iteration, double residual) {
+      Vector x(y, Teuchos::Copy);
+      scale(x, true);
+      return stop.criterion(x, iteration, residual);
+    };
+  dX.putScalar(0);
+  const algebra::LinearReport report = solver_.solve(minus_R, dX, scaled);
+  scale(dX, true);
+  return report;
+}
+
+double TwoPhaseProblem::rhs_norm(const Vector& X, const Vector& R) const {
+  Vector Y(X, Teuchos::Copy), B(R, Teuchos::Copy);
+  Y.update(-1, *origin_, 1);
+  scale(Y, false);
+  A_->apply(Y, B, Teuchos::NO_TRANS, 1, -1);
+  return B.norm2();
+}
+
+GlobalIndex TwoPhaseProblem::nonzeros() const { return A_.is_null() ? 0 : static_cast<GlobalIndex>(A_->getGlobalNumEntries()); }
+
+}  // namespace thixis::models

@@ -1,0 +1,141 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "evolution_checkpoint.hpp"
+#include "falling.hpp"
+#include "step_control.hpp"
+#include "thixis/algebra/tpetra.hpp"
+#include "thixis/drive/evolve.hpp"
+
+namespace thixis::drive {
+namespace {
+
+using algebra::Vector;
+
+RunParams half_a_unit(double step) {
+  RunParams params;
+  params.scene.data.emplace();
+  params.time = TimeParams{};
+  params.time->step = step;
+  params.time->end = 0.5;
+  return params;
+}
+
+/// The ends of all steps.
+std::vector<double> times(const test::Falling& scene, const RunParams& params, EvolutionOutcome* outcome = nullptr) {
+  const auto evolution = test::falling(scene, core::Comm());
+  std::vector<double> ends;
+  EvolutionObserver observer;
+  observer.step = [&](const StepRecord& record, const models::Evolution&, const Vector&, const complementarity::ActiveSet&) {
+    ends.push_back(record.at.time);
+  };
+  EvolutionOutcome found = evolve(*evolution, params, observer);
+  if (outcome != nullptr) *outcome = std::move(found);
+  return ends;
+}
+
+}  // namespace
+
+TEST(Steps, end_at_multiples_and_at_the_times_asked_for) {
+  RunParams params = half_a_unit(0.1);
+  params.time->also = {0.15, 0.3};
+  EvolutionOutcome outcome;
+  const auto ends = times({}, params, &outcome);
+  const std::vector<double> expected = {0, 0.1, 0.15, 0.2, 3 * 0.1, 0.4, 0.5};
+  ASSERT_EQ(ends.size(), expected.size());
+  for (std::size_t i = 0; i < ends.size(); ++i) EXPECT_NEAR(ends[i], expected[i], 1e-15);
+  EXPECT_EQ(ends.back(), 0.5);
+  EXPECT_TRUE(outcome.solved);
+  EXPECT_EQ(outcome.at.step, 6);
+  EXPECT_EQ(outcome.at.retries, 0);
+  EXPECT_TRUE(outcome.kkt->holds(1e-12));
+}
+
+TEST(Steps, that_fail_are_cut_and_grow_again) {
+  test::Falling scene;
+  scene.longest_step = 0.03;
+  std::vector<std::string> reasons;
+  const auto evolution = test::falling(scene, core::Comm());
+  EvolutionObserver observer;
+  double longest = 0;
+  observer.retry = [&](const TimePosition&, double, const std::string& why, double) { reasons.push_back(why); };
+  observer.step = [&](const StepRecord& record, const models::Evolution&, const Vector&, const complementarity::ActiveSet&) {
+    longest = std::max(longest, record.length);
+  };
+  const auto outcome = evolve(*evolution, half_a_unit(0.1), observer);
+  EXPECT_TRUE(outcome.solved);
+  EXPECT_EQ(outcome.at.time, 0.5);
+  EXPECT_EQ(static_cast<int>(reasons.size()), outcome.at.retries);
+  EXPECT_GE(outcome.at.retries, 2);
+  EXPECT_LE(longest, 0.03);
+  EXPECT_NE(reasons.front().find("the step is too long"), std::string::npos) << reasons.front();
+}
+
+TEST(Steps, that_would_be_too_short_end_the_run) {
+  test::Falling scene;
+  scene.longest_step = 0;
+  RunParams params = half_a_unit(0.1);
+  params.time->smallest = 0.01;
+  EvolutionOutcome outcome;
+  times(scene, params, &outcome);
+  EXPECT_FALSE(outcome.solved);
+  EXPECT_EQ(outcome.at.step, 0);
+  EXPECT_EQ(outcome.at.retries, 4);  // 0.1, 0.05, 0.025, 0.0125
+  EXPECT_NE(outcome.why.find("time/smallest"), std::string::npos) << outcome.why;
+  for (const double x : {outcome.X->normInf()}) EXPECT_EQ(x, 0.1);  // the last state that was good
+}
+
+TEST(Steps, follow_the_error_in_time) {
+  RunParams params = half_a_unit(0.1);
+  params.time->adaptive = true;
+  test::Falling scene;
+  scene.error_in_time = 100;  // half of that in space at length 1/200; the first attempt is far too long
+  EvolutionOutcome outcome;
+  const auto ends = times(scene, params, &outcome);
+  EXPECT_GT(outcome.at.retries, 0);
+  for (std::size_t i = 3; i + 2 < ends.size(); ++i) EXPECT_NEAR(ends[i] - ends[i - 1], 0.005, 1e-12);
+  scene.error_in_time = 1e-6;  // as long as they may become
+  params.time->step = 0.01;
+  params.time->largest = 0.1;
+  const auto few = times(scene, params);
+  EXPECT_LT(few.size(), 12u);
+  EXPECT_EQ(few.back(), 0.5);
+}
+
+TEST(Steps, go_on_from_a_checkpoint_bit_for_bit) {
+  const core::Comm comm;
+  const auto folder = std::filesystem::temp_directory_path() / ("thixis_evolution_" + std::to_string(comm.size()));
+  comm.on_root([&] { std::filesystem::create_directories(folder); });
+  const std::string path = (folder / "checkpoint.h5").string();
+  test::Falling scene;
+  scene.longest_step = 0.03;
+  const RunParams params = half_a_unit(0.1);
+  const auto whole = test::falling(scene, comm);
+  const EvolutionCheckpoint checkpoint(path, params,
+                                       core::Deck::from_text("<ParameterList name=\"thixis\"/>", "deck.xml", folder.string()));
+  EvolutionObserver observer;
+  observer.stop = [&](const TimePosition& at, double next, const models::Evolution& evolution, const Vector& X) {
+    if (at.step == 7) checkpoint.write(at, next, evolution, X, {11, 8, 2, 5, 1.5});
+    return std::string();
+  };
+  const auto expected = evolve(*whole, params, observer);
+
+  const auto stored = output::read_checkpoint(path, comm);
+  EXPECT_EQ(stored_evolution(stored).at.step, 7);
+  EXPECT_EQ(stored_evolution(stored).written.history_rows, 11);
+  EXPECT_EQ(stored_evolution(stored).written.frames, 2);
+  const auto again = test::falling(scene, comm);
+  const auto found = evolve(*again, params, {}, &stored);
+  EXPECT_EQ(found.at.step, expected.at.step);
+  EXPECT_EQ(found.at.newton_iterations, expected.at.newton_iterations);
+  EXPECT_EQ(found.at.retries, expected.at.retries);
+  EXPECT_EQ(*again->energy_error(), *whole->energy_error());
+  const auto a = algebra::host_view(std::as_const(*found.X)), b = algebra::host_view(std::as_const(*expected.X));
+  for (std::size_t i = 0; i < a.extent(0); ++i) EXPECT_EQ(a(i), b(i));
+  comm.barrier();
+  comm.on_root([&] { std::filesystem::remove_all(folder); });
+}
+
+}  // namespace thixis::drive

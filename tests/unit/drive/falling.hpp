@@ -1,0 +1,20 @@
+#pragma once
+/// Points that fall on a floor: x' = f_l(t) + lambda, x >= 0, lambda >= 0, x lambda = 0. What is tested is what the time loop does with a
+/// scene; its linear systems are 2 x 2.
+#include <memory>
+#include <vector>
+
+#include "thixis/models/evolution.hpp"
+
+namespace thixis::drive::test {
+
+struct Falling {
+  GlobalIndex points = 7;
+  double longest_step = 1e300;  ///< longer steps are refused by the solver
+  double error_in_time = 0;     ///< of a step of unit length; that in space is 1: error_in_time · length
+};
+
+/// f_l(t) = (1 + l) cos(3 t) - 1/2 for point l, x_l(0) = 1/10.
+std::unique_ptr<models::Evolution> falling(const Falling& params, const core::Comm& comm);
+
+}  // namespace thixis::drive::test
