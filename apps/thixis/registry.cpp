@@ -7,6 +7,7 @@
 #include "thixis/hho/space.hpp"
 #include "thixis/models/membranes.hpp"
 #include "thixis/models/parabolic_membranes.hpp"
+#include "thixis/models/two_phase.hpp"
 #include "thixis/scene/membranes.hpp"
 
 namespace thixis {
@@ -21,7 +22,7 @@ method::SpaceFactory make_method(const method::MethodParams& method) {
     case method::MethodName::hho:
       return hho::make_space;
     default:
-      throw core::InputError("method/name: this version serves no scene by " + method::to_text(method.name) + "; write fem, dg or hho.");
+      throw core::InputError("method/name: " + method::to_text(method.name) + " serves two-phase flow alone; write fem, dg or hho.");
   }
 }
 
@@ -45,9 +46,29 @@ std::array<scene::FieldPtr, 3> initial_fields(const drive::RunParams& params) {
   return {one ? field("u", initial.u) : field("u1", initial.u1), field("u2", initial.u2), field("lambda", initial.lambda)};
 }
 
+/// A step of a scene in time begins with the one before.
+void refuse_initial(const drive::RunParams& params) {
+  const auto& initial = params.newton.initial;
+  if (initial.u || initial.u1 || initial.u2 || initial.lambda)
+    throw core::InputError("newton/initial: every step in time begins with the one before; drop it, or give initial data in the block 'scene'.");
+}
+
+std::unique_ptr<models::Model> make_two_phase(const drive::RunParams& params) {
+  if (params.method.name != method::MethodName::fv) throw core::InputError("method/name: two-phase flow is served by fv alone; write fv.");
+  refuse_initial(params);
+  const drive::TimeParams time = params.time.value_or(drive::TimeParams{});
+  auto scene = scene::two_phase_scene(params.scene);
+  if (scene.time_unit == "year" && time.unit != drive::TimeUnit::year)
+    throw core::InputError("time/unit: the rates of the case '" + scene.name + "' are per year; write year.");
+  if (time.unit == drive::TimeUnit::none)
+    throw core::InputError("time/unit: viscosities and permeabilities have units, and so has time; write second or year.");
+  return models::two_phase(std::move(scene), params.linear, drive::seconds_in(time.unit), params.output.probes);
+}
+
 }  // namespace
 
 std::unique_ptr<models::Model> make_model(const drive::RunParams& params) {
+  if (params.scene.model == scene::Model::two_phase) return make_two_phase(params);
   const auto make_space = make_method(params.method);
   const auto check_mesh = params.method.name == method::MethodName::dg ? dg::check_mesh : method::MeshCheck();
   switch (params.scene.model) {
@@ -56,9 +77,10 @@ std::unique_ptr<models::Model> make_model(const drive::RunParams& params) {
       return models::membranes(scene::membrane_scene(params.scene), make_space, params.method, params.linear, initial_fields(params),
                                check_mesh);
     case scene::Model::parabolic_membranes:
+      refuse_initial(params);
       return models::parabolic_membranes(scene::membrane_scene(params.scene), make_space, params.method, params.linear, check_mesh);
     default:
-      throw core::InputError("scene/model: this version serves membranes, obstacle and parabolic membranes only; write one of them.");
+      throw core::InputError("scene/model: this version does not serve " + scene::to_text(params.scene.model) + "; write membranes, obstacle, parabolic membranes or two-phase.");
   }
 }
 

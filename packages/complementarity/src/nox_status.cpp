@@ -37,7 +37,7 @@ bool SmallEstimate::ask(const State& now, const State& before, int k) {
   const std::optional<Estimate>& eta = system_.estimate(X());
   const bool held_before = held_;
   held_ = linearization_error_is_small(*eta, system_.stopping()) && algebraic_excess(*eta, system_.stopping()) <= 1;
-  return held_ && (held_before || now.active.changed(before.active) == 0);
+  return held_ && (eta->evident || held_before || now.active.changed(before.active) == 0);
 }
 
 bool Cycle::ask(const State& now, const State& before, int k) {

@@ -6,6 +6,7 @@
 
 #include "checkpoint.hpp"
 #include "follow.hpp"
+#include "thixis/algebra/tpetra.hpp"
 #include "thixis/core/log.hpp"
 #include "thixis/core/timer.hpp"
 

@@ -8,6 +8,7 @@
 #include "expectations.hpp"
 #include "follow_evolution.hpp"
 #include "interrupt.hpp"
+#include "thixis/algebra/tpetra.hpp"
 #include "thixis/core/timer.hpp"
 
 namespace thixis::drive {

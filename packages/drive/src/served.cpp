@@ -10,6 +10,7 @@ using Mistakes = std::vector<std::string>;
 
 /// What is not known stays unjudged: other mistakes of the scene are told by the model.
 bool exact_solution_missing(const RunParams& params) {
+  if (params.scene.model == scene::Model::two_phase) return true;
   try {
     return !scene::membrane_scene(params.scene).exact;
   } catch (const core::InputError&) {
@@ -48,7 +49,22 @@ void judge_estimate(const RunParams& params, Mistakes& mistakes) {
     mistakes.push_back(fmt::format("output/fields: there is no '{}', for {}", name, nobody));
 }
 
+/// The systems of two-phase flow are not symmetric, and have one form.
+void judge_flow(const RunParams& params, Mistakes& mistakes) {
+  const algebra::LinearParams& linear = params.linear;
+  if (linear.form != algebra::SystemForm::full)
+    mistakes.push_back("linear/form: the systems of two-phase flow are not reduced; write full, or leave it out.");
+  if (linear.solver == algebra::SolverKind::cg)
+    mistakes.push_back("linear/solver: the systems of two-phase flow are not symmetric, so cg can not solve them; write gmres or direct.");
+  if (linear.solver != algebra::SolverKind::direct && linear.preconditioner == algebra::PreconditionerKind::muelu)
+    mistakes.push_back("linear/preconditioner: muelu fails on the systems of two-phase flow; write ilu.");
+  if (params.newton.sweeps.value_or(0) > 0) mistakes.push_back("newton/sweeps: two-phase flow has no smoother; write 0, or leave it out.");
+  if (params.method.condensation.value_or(false))
+    mistakes.push_back("method/condensation: finite volumes have no unknowns to eliminate; write false, or leave it out.");
+}
+
 void judge_method(const RunParams& params, Mistakes& mistakes) {
+  if (params.scene.model == scene::Model::two_phase) return judge_flow(params, mistakes);
   const method::MethodParams& method = params.method;
   const bool fem = method.name == method::MethodName::fem, dg = method.name == method::MethodName::dg;
   const bool interior = method.name == method::MethodName::hho || (fem && method.degree >= 3);

@@ -11,6 +11,7 @@
 #include "thixis/core/timer.hpp"
 #include "thixis/fv/host.hpp"
 #include "two_phase_balance.hpp"
+#include "two_phase_bound.hpp"
 #include "two_phase_probes.hpp"
 #include "two_phase_problem.hpp"
 
@@ -26,7 +27,7 @@ const std::vector<std::string>& names_of_unknowns() {
   return names;
 }
 const std::vector<std::string>& names_of_fields() {
-  static const std::vector<std::string> names = {"s_g", "p_l", "p_g", "chi", "phase"};
+  static const std::vector<std::string> names = {"s_g", "p_l", "p_g", "chi", "phase", "phase_transition"};
   return names;
 }
 
@@ -38,6 +39,37 @@ double reference_pressure(const TwoPhaseOperator& flow, const Vector& X0) {
   largest = flow.grid().comm.max(largest);
   return largest > 0 ? largest : flow.laws().P_r;
 }
+
+/// The estimate over all steps: roots of sums of squares, as long as every step has one.
+class BoundSoFar {
+ public:
+  void add(const std::optional<complementarity::Estimate>& of_step) {
+    every_step_ = every_step_ && of_step.has_value();
+    if (!every_step_) return;
+    const double parts[] = {of_step->total, of_step->discretization, of_step->linearization, of_step->algebraic};
+    for (std::size_t i = 0; i < squares_.size(); ++i) squares_[i] += parts[i] * parts[i];
+    any_step_ = true;
+  }
+  std::optional<complementarity::Estimate> value() const {
+    if (!every_step_ || !any_step_) return std::nullopt;
+    return complementarity::Estimate{std::sqrt(squares_[0]), std::sqrt(squares_[1]), std::sqrt(squares_[2]), std::sqrt(squares_[3]), 0, 0};
+  }
+  void save(std::map<std::string, double>& attributes) const {
+    attributes["bound_every_step"] = every_step_;
+    attributes["bound_any_step"] = any_step_;
+    for (std::size_t i = 0; i < squares_.size(); ++i) attributes[names[i]] = squares_[i];
+  }
+  void restore(const output::StoredCheckpoint& stored) {
+    every_step_ = stored.attribute("bound_every_step") != 0;
+    any_step_ = stored.attribute("bound_any_step") != 0;
+    for (std::size_t i = 0; i < squares_.size(); ++i) squares_[i] = stored.attribute(names[i]);
+  }
+
+ private:
+  static constexpr const char* names[] = {"bound_total", "bound_discretization", "bound_linearization", "bound_algebraic"};
+  std::array<double, 4> squares_ = {0, 0, 0, 0};
+  bool every_step_ = true, any_step_ = false;
+};
 
 class TwoPhaseEvolution final : public Evolution {
  public:
@@ -60,15 +92,38 @@ class TwoPhaseEvolution final : public Evolution {
   void begin(const TimeStep& step, const Vector& before) override {
     const core::Region region("assembly");
     problem_.begin(flow_.step(step.begin, step.end, before));
+    before_ = Teuchos::rcp(new Vector(before, Teuchos::Copy));
+    of_step_.reset();
+    bound_begun_ = false;
   }
   complementarity::Problem& problem() override { return problem_; }
 
-  complementarity::Estimate estimate(const Vector&) override {
-    throw core::InputError("stopping/estimate: this version has no bound for two-phase flow; write stopping/rule = exact or inexact.");
+  complementarity::Estimate estimate(const Vector& X) override {
+    if (!bound_) bound_ = std::make_unique<TwoPhaseBound>(flow_, problem_.scales(), TwoPhaseBoundParams{});
+    if (!bound_begun_) bound_->begin(problem_.step(), *before_);
+    bound_begun_ = true;
+    of_step_ = (*bound_)(X, problem_.linearization());
+    return *of_step_;
   }
-  CellEstimates cell_estimates() const override { return {}; }
+  CellEstimates cell_estimates() const override {
+    if (!bound_) return {};
+    const auto copy = [](const fv::View<double*>& values) {
+      const auto host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), values);
+      return std::vector<double>(host.data(), host.data() + host.extent(0));
+    };
+    const TwoPhaseBound::Cells& cells = bound_->cells();
+    return {copy(cells.discretization), copy(cells.linearization), copy(cells.algebraic)};
+  }
+  std::optional<StepErrors> step_errors() const override {
+    if (!of_step_) return std::nullopt;
+    return bound_->step_errors();
+  }
 
-  void accept(const Vector& X) override { balance_.add(problem_.step(), X); }
+  void accept(const Vector& X) override {
+    balance_.add(problem_.step(), X);
+    bound_so_far_.add(of_step_);
+  }
+  std::optional<complementarity::Estimate> estimate_so_far() const override { return bound_so_far_.value(); }
   std::vector<Balance> balances() const override { return balance_.balances(); }
 
   complementarity::KktData kkt_data(const Vector& X) const override;
@@ -109,6 +164,7 @@ class TwoPhaseEvolution final : public Evolution {
 
   EvolutionState save(const Vector& X) const override {
     EvolutionState state{{}, balance_.save()};
+    bound_so_far_.save(state.attributes);
     const auto x = algebra::host_view(X);
     for (int u = 0; u < unknowns_per_cell; ++u) {
       output::CheckpointBlock block{names_of_unknowns()[u], owned_ids(), {}};
@@ -134,6 +190,7 @@ class TwoPhaseEvolution final : public Evolution {
       for (LocalIndex K = 0; K < flow_.grid().owned_cells; ++K) x(unknowns_per_cell * K + u) = values[K];
     }
     balance_.restore(stored);
+    bound_so_far_.restore(stored);
     return X;
   }
 
@@ -148,6 +205,11 @@ class TwoPhaseEvolution final : public Evolution {
   TwoPhaseProblem problem_;
   TwoPhaseBalance balance_;
   TwoPhaseProbes probes_;
+  Teuchos::RCP<const Vector> before_;  ///< X^{n-1} of the step begun
+  std::unique_ptr<TwoPhaseBound> bound_;
+  bool bound_begun_ = false;                           ///< it knows of the step begun
+  std::optional<complementarity::Estimate> of_step_;  ///< its last estimate in this step
+  BoundSoFar bound_so_far_;
 };
 
 /// The multiplier is G/(H P_ref), the gap s_g; both are of size 1 where they matter, but for saturations of a small gas zone.
@@ -191,6 +253,10 @@ std::vector<output::FieldData> TwoPhaseEvolution::fields(const Vector& X, const 
   add("p_l", [](const PhaseState& U) { return U.P; });
   add("p_g", [](const PhaseState& U) { return U.P_g.value; });
   add("chi", [](const PhaseState& U) { return U.chi; });
+  if (of_step_ && (names.empty() || std::find(names.begin(), names.end(), "phase_transition") != names.end())) {
+    const auto values = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), bound_->cells().phase_transition);
+    shown.push_back({"phase_transition", output::Centre::cell, {values.data(), values.data() + values.extent(0)}});
+  }
   add("phase", [](const PhaseState& U) { return U.s_g > trace_of_gas ? 1.0 : 0.0; });
   return shown;
 }

@@ -87,7 +87,7 @@ struct TwoPhaseBound::Impl {
              fv::View<double*>("thixis::models::algebraic", owned), fv::View<double*>("thixis::models::phase_transition", owned)};
   }
 
-  bool literature() const { return params.measure == FlowMeasure::literature; }
+  bool literature() const { return params.measure == complementarity::Measure::literature; }
   const fv::Grid& grid() const { return flow.grid(); }
 
   /// Of all local cells; (2.1) but in the measure of the literature.
@@ -273,6 +273,7 @@ struct TwoPhaseBound::Impl {
                                     errors});
     complementarity::Estimate eta = plain ? of_literature() : of_residuals();
     find_worst_cells(eta);
+    eta.evident = true;
     return eta;
   }
 };

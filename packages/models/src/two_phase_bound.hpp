@@ -2,19 +2,14 @@
 #include <memory>
 
 #include "thixis/complementarity/estimate.hpp"
+#include "thixis/complementarity/parameters.hpp"
 #include "thixis/models/evolution.hpp"
 #include "two_phase_problem.hpp"
 
 namespace thixis::models {
 
-/// What the estimate of a step of two-phase flow measures.
-enum class FlowMeasure {
-  residual,   ///< dual norms of the residuals of both components, without units (docs/methods/two_phase_estimates.md, 2 to 5)
-  literature  ///< the sum of the literature, in SI units, whatever they are (likewise, 6)
-};
-
 struct TwoPhaseBoundParams {
-  FlowMeasure measure = FlowMeasure::residual;
+  complementarity::Measure measure = complementarity::Measure::residual;
   double time_scale = 2500 * 31557600.;  ///< alpha [s]
 };
 

@@ -16,6 +16,9 @@ struct Estimate {
   /// The worst cell: max over K of eta_alg,K / max(eta_disc,K, eta_lin,K) and of eta_lin,K / eta_disc,K, for the cell-wise rule; 0 where
   /// it is not asked for.
   double worst_algebraic = 0, worst_linearization = 0;
+  /// linearization holds all that the nonlinear equations and the contact conditions miss at this iterate: small once is small. Otherwise
+  /// it may be small at one iterate and larger at the next, and the rule `adaptive` looks twice.
+  bool evident = false;
 };
 
 /// Looks at an iterate. Collective; the same on all ranks.

@@ -79,7 +79,8 @@ struct NewtonReport {
 /// with `local` at worst_algebraic <= gamma_alg, worst_linearization <= gamma_lin. A linear solver that cannot get there ends at its
 /// tolerance, and a run that meets one of the two conditions above has converged, too. Since eta_lin is not monotone, one iterate where it
 /// is small is no evidence: the criterion must have held at the iterate before as well, or the last step must have left the contact set as
-/// it was. That costs at most one step more than the criterion alone, a cheap one: it starts from an iterate that is good enough.
+/// it was. That costs at most one step more than the criterion alone, a cheap one: it starts from an iterate that is good enough. Where an
+/// estimate is `evident`, it is enough once.
 /// Where Newton does not get ahead (eta_lin has not fallen to 0.8 of its value five steps before, or Newton-min has the contact set it had,
 /// and eta_lin is not small) gamma_alg is a tenth for the linear systems that follow, and again a tenth, until eta_lin falls.
 ///

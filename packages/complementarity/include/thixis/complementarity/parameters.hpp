@@ -33,6 +33,8 @@ struct NewtonParams {
 };
 
 enum class StoppingRule { exact, inexact, adaptive };
+/// Of two-phase flow (docs/methods/two_phase_estimates.md): dual norms of residuals without units, or the sum of the literature.
+enum class Measure { residual, literature };
 
 /// Block `stopping`; what the rules mean is written at `newton()` in newton.hpp.
 struct StoppingParams {
@@ -48,6 +50,8 @@ struct StoppingParams {
   double inexact_factor = 0.3;   ///< alpha
   std::optional<bool> estimate;  ///< not given: only where rule, target or adaptivity need it
   std::optional<double> target;
+  Measure measure = Measure::residual;  ///< two-phase flow
+  std::optional<double> time_scale;     ///< alpha, two-phase flow, in the unit of time of the deck; not given: 2500 years
   std::optional<double> friedrichs;  ///< h_Omega C_PF of the bound of the literature; not given: that of the box around the domain
   static const core::Schema<StoppingParams>& schema();
 };
