@@ -50,7 +50,8 @@ std::array<scene::FieldPtr, 3> initial_fields(const drive::RunParams& params) {
 void refuse_initial(const drive::RunParams& params) {
   const auto& initial = params.newton.initial;
   if (initial.u || initial.u1 || initial.u2 || initial.lambda)
-    throw core::InputError("newton/initial: every step in time begins with the one before; drop it, or give initial data in the block 'scene'.");
+    throw core::InputError(
+        "newton/initial: every step in time begins with the one before; drop it, or give initial data in the block 'scene'.");
 }
 
 std::unique_ptr<models::Model> make_two_phase(const drive::RunParams& params) {
@@ -80,7 +81,8 @@ std::unique_ptr<models::Model> make_model(const drive::RunParams& params) {
       refuse_initial(params);
       return models::parabolic_membranes(scene::membrane_scene(params.scene), make_space, params.method, params.linear, check_mesh);
     default:
-      throw core::InputError("scene/model: this version does not serve " + scene::to_text(params.scene.model) + "; write membranes, obstacle, parabolic membranes or two-phase.");
+      throw core::InputError("scene/model: this version does not serve " + scene::to_text(params.scene.model) +
+                             "; write membranes, obstacle, parabolic membranes or two-phase.");
   }
 }
 

@@ -180,12 +180,11 @@ class TwoPhaseEvolution final : public Evolution {
     for (int u = 0; u < unknowns_per_cell; ++u) {
       const std::string& name = names_of_unknowns()[u];
       if (stored.size(name) != cells())
-        throw core::InputError(fmt::format("The checkpoint '{}' belongs to another model or mesh: it holds {}, the deck asks for {} cells; "
-                                           "leave scene and mesh as they were.",
-                                           stored.path(),
-                                           stored.size(name) < 0 ? fmt::format("no '{}'", name)
-                                                                 : fmt::format("{} values of '{}'", stored.size(name), name),
-                                           cells()));
+        throw core::InputError(fmt::format(
+            "The checkpoint '{}' belongs to another model or mesh: it holds {}, the deck asks for {} cells; "
+            "leave scene and mesh as they were.",
+            stored.path(), stored.size(name) < 0 ? fmt::format("no '{}'", name) : fmt::format("{} values of '{}'", stored.size(name), name),
+            cells()));
       const auto values = stored.fetch(name, owned_ids());
       for (LocalIndex K = 0; K < flow_.grid().owned_cells; ++K) x(unknowns_per_cell * K + u) = values[K];
     }
@@ -207,7 +206,7 @@ class TwoPhaseEvolution final : public Evolution {
   TwoPhaseProbes probes_;
   Teuchos::RCP<const Vector> before_;  ///< X^{n-1} of the step begun
   std::unique_ptr<TwoPhaseBound> bound_;
-  bool bound_begun_ = false;                           ///< it knows of the step begun
+  bool bound_begun_ = false;                          ///< it knows of the step begun
   std::optional<complementarity::Estimate> of_step_;  ///< its last estimate in this step
   BoundSoFar bound_so_far_;
 };
@@ -273,7 +272,8 @@ class TwoPhaseModel final : public UnsteadyModel {
                                     const std::vector<std::string>& field_names) const override {
     for (const auto& name : field_names)
       if (std::find(names_of_fields().begin(), names_of_fields().end(), name) == names_of_fields().end())
-        throw core::InputError(fmt::format("output/fields: there is no field '{}'; write all, none, or some of {}.", name, core::join(names_of_fields())));
+        throw core::InputError(
+            fmt::format("output/fields: there is no field '{}'; write all, none, or some of {}.", name, core::join(names_of_fields())));
     return std::make_unique<TwoPhaseEvolution>(fv::build(mesh, comm, folder), scene_, linear_, seconds_per_unit_, probes_);
   }
 
