@@ -84,8 +84,7 @@ core::ExitCode describe(const Arguments& arguments, const core::Comm&) {
 }
 
 core::ExitCode cases(const Arguments&, const core::Comm&) {
-  for (const auto& known : scene::cases())
-    core::log::info("{:<21}{:<26}{}", scene::to_text(known.model), known.name, known.sentence);
+  for (const auto& known : scene::cases()) core::log::info("{:<21}{:<26}{}", scene::to_text(known.model), known.name, known.sentence);
   return core::ExitCode::done;
 }
 

@@ -23,11 +23,11 @@ class TwoPhaseBalance {
 
  private:
   struct Account {
-    double defect = 0;      ///< of the last step [kg]
-    double worst = 0;       ///< relative defect of a step
-    double total = 0;       ///< sum of the defects [kg]
-    double brought = 0;     ///< by sources and through the boundary, what came in alone [kg]
-    double in_place = 0;    ///< at the end of the last step [kg]
+    double defect = 0;    ///< of the last step [kg]
+    double worst = 0;     ///< relative defect of a step
+    double total = 0;     ///< sum of the defects [kg]
+    double brought = 0;   ///< by sources and through the boundary, what came in alone [kg]
+    double in_place = 0;  ///< at the end of the last step [kg]
   };
   double reference(int component) const;
 

@@ -46,8 +46,8 @@ struct FaceFlux {
 /// for e >= 1, so that all laws are finite for every finite s_g.
 struct TwoPhaseLaws {
   double porosity, permeability, viscosity_l, viscosity_g;
-  double rho_w;      ///< density of water, and of the liquid in its weight
-  double diffusion;  ///< D
+  double rho_w;              ///< density of water, and of the liquid in its weight
+  double diffusion;          ///< D
   double H, beta_l, beta_g;  ///< H~ M_h, rho_w M_h/M_w, M_h/(R T) [kg/(Pa m^3), kg/m^3, kg/(Pa m^3)]
   double gravity[2];
 
@@ -58,7 +58,7 @@ struct TwoPhaseLaws {
   bool quadratic;
   double a, b;  ///< of the quadratic law a s_g + b s_g²
 
-  static constexpr double dry = 0.99;             ///< e beyond which the laws are tangents
+  static constexpr double dry = 0.99;              ///< e beyond which the laws are tangents
   static constexpr double end_of_quadratic = 0.1;  ///< s_g
 
   /// 1 - S_e^{1/m}
@@ -114,8 +114,7 @@ struct TwoPhaseLaws {
     const double s = U.s_g;
     return {{-porosity * rho_w * s, porosity * (beta_l * U.chi * (1 - s) + beta_g * U.P_g.value * s)},
             {{-porosity * rho_w, 0, 0},
-             {porosity * (beta_g * (U.P_g.value + U.P_g.slope * s) - beta_l * U.chi), porosity * beta_g * s,
-              porosity * beta_l * (1 - s)}}};
+             {porosity * (beta_g * (U.P_g.value + U.P_g.slope * s) - beta_l * U.chi), porosity * beta_g * s, porosity * beta_l * (1 - s)}}};
   }
 
   /// G = H P_g - beta_l chi [kg/m^3] and its derivatives.
@@ -128,8 +127,9 @@ struct TwoPhaseLaws {
 
   /// Between A and B at distance d; g_n = g·n with the normal from A to B. Upwind by the potentials,
   ///
-  ///     q_l = K k_rl(S_up)/mu_l (P_A - P_B + rho_w g_n d)/d,      q_g = K k_rg(S_up)/mu_g (P^g_A - P^g_B + beta_g (P^g_A + P^g_B)/2 g_n d)/d,
-  ///     J = phi beta_l D (S_A + S_B)/2 (chi_A - chi_B)/d,   Phi_w = rho_w q_l - J,   Phi_h = beta_l chi_up q_l + beta_g P^g_up q_g + J.
+  ///     q_l = K k_rl(S_up)/mu_l (P_A - P_B + rho_w g_n d)/d,      q_g = K k_rg(S_up)/mu_g (P^g_A - P^g_B + beta_g (P^g_A + P^g_B)/2 g_n
+  ///     d)/d, J = phi beta_l D (S_A + S_B)/2 (chi_A - chi_B)/d,   Phi_w = rho_w q_l - J,   Phi_h = beta_l chi_up q_l + beta_g P^g_up q_g +
+  ///     J.
   KOKKOS_INLINE_FUNCTION FaceFlux flux(const PhaseState& A, const PhaseState& B, double d, double g_n) const {
     FaceFlux F{};
     add_liquid(A, B, d, g_n, F);

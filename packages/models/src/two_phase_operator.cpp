@@ -63,7 +63,8 @@ std::vector<PhaseState> states_of(const scene::FlowState& state, const TwoPhaseL
   states.reserve(s_g.size());
   for (std::size_t i = 0; i < s_g.size(); ++i) {
     const auto refuse = [&](const std::string& what) {
-      throw core::InputError(fmt::format("scene/flow/{}: at ({}, {}) {}", path, core::to_text(places.x[i]), core::to_text(places.y[i]), what));
+      throw core::InputError(
+          fmt::format("scene/flow/{}: at ({}, {}) {}", path, core::to_text(places.x[i]), core::to_text(places.y[i]), what));
     };
     if (!(s_g[i] >= 0 && laws.e_of(s_g[i]) < TwoPhaseLaws::dry))
       refuse(fmt::format("the gas saturation is {}; it must not be negative, and leave more liquid than S_lr.", core::to_text(s_g[i])));
@@ -141,16 +142,15 @@ void TwoPhaseOperator::set_boundary(const scene::TwoPhaseScene& scene) {
   Kokkos::deep_copy(kind, FlowBoundaryKind::no_flow);
   for (const auto& [tag, part] : scene.boundary) {
     if (std::find(grid_.tags.begin(), grid_.tags.end(), tag) == grid_.tags.end())
-      throw core::InputError(fmt::format("scene/flow/boundary/{}: the mesh has no such part of the boundary; write one of: {}.", tag,
-                                         core::join(grid_.tags)));
+      throw core::InputError(
+          fmt::format("scene/flow/boundary/{}: the mesh has no such part of the boundary; write one of: {}.", tag, core::join(grid_.tags)));
     for (const LocalIndex F : part_of_boundary(grid_, tag).index) kind(F) = part.kind;
   }
   Kokkos::deep_copy(face_kind_, kind);
 }
 
 Teuchos::RCP<Vector> TwoPhaseOperator::initial() const {
-  const auto states =
-      grid_.comm.together([&] { return states_of(scene_.initial, laws_, centres(grid_), 0, "initial"); });
+  const auto states = grid_.comm.together([&] { return states_of(scene_.initial, laws_, centres(grid_), 0, "initial"); });
   const auto X = Teuchos::rcp(new Vector(map_));
   const auto x = algebra::host_overwrite(*X);
   for (LocalIndex K = 0; K < grid_.owned_cells; ++K) {
@@ -214,9 +214,9 @@ fv::View<PhaseState*> TwoPhaseOperator::states(const Vector& X) const {
 
 fv::View<FaceFlux*> TwoPhaseOperator::fluxes(const fv::View<PhaseState*>& states, const FlowStep& step) const {
   const fv::View<FaceFlux*> fluxes("thixis::models::fluxes", grid_.faces);
-  Kokkos::parallel_for("thixis::models::fluxes", Kokkos::RangePolicy<>(0, grid_.faces),
-                       FluxesOf{laws_, grid_.face_cells, grid_.face_distance, grid_.face_normal, face_kind_, states, step.outside,
-                                step.inflow, fluxes});
+  Kokkos::parallel_for(
+      "thixis::models::fluxes", Kokkos::RangePolicy<>(0, grid_.faces),
+      FluxesOf{laws_, grid_.face_cells, grid_.face_distance, grid_.face_normal, face_kind_, states, step.outside, step.inflow, fluxes});
   return fluxes;
 }
 

@@ -7,11 +7,11 @@ namespace thixis::models {
 
 /// A step of backward Euler as kernels see it, in SI units.
 struct FlowStep {
-  double length = 0;                       ///< s
-  fv::View<double* [components]> before;   ///< masses of the owned cells at its beginning, as in Masses
-  fv::View<double* [components]> source;   ///< of the owned cells [kg/(m^3 s)]
-  fv::View<double* [components]> inflow;   ///< of the faces of kind flux, into the domain [kg/(m^2 s)]
-  fv::View<PhaseState*> outside;           ///< of the faces of kind state
+  double length = 0;                      ///< s
+  fv::View<double* [components]> before;  ///< masses of the owned cells at its beginning, as in Masses
+  fv::View<double* [components]> source;  ///< of the owned cells [kg/(m^3 s)]
+  fv::View<double* [components]> inflow;  ///< of the faces of kind flux, into the domain [kg/(m^2 s)]
+  fv::View<PhaseState*> outside;          ///< of the faces of kind state
 };
 
 /// Two-phase flow on a grid of two-point fluxes: states, fluxes and masses of the cells from X, which holds (s_g, P, chi) of each owned

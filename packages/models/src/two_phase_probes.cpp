@@ -47,7 +47,8 @@ TwoPhaseProbes::TwoPhaseProbes(const fv::Grid& grid, const std::vector<double>& 
     cell_.push_back(first_cell(grid, [&](LocalIndex K) { return std::pair(at.centre(K, 0), at.centre(K, 1)); }));
     return;
   }
-  if (points.size() % grid.dimension != 0) throw core::InputError("output/probes: each point has two coordinates; write {x1,y1,x2,y2,...}.");
+  if (points.size() % grid.dimension != 0)
+    throw core::InputError("output/probes: each point has two coordinates; write {x1,y1,x2,y2,...}.");
   for (std::size_t i = 0; i < points.size(); i += grid.dimension) {
     const double x = points[i], y = grid.dimension == 1 ? 0 : points[i + 1];
     cell_.push_back(first_cell(grid, [&](LocalIndex K) {

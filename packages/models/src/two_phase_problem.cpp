@@ -43,7 +43,7 @@ struct Equations {
   TwoPhaseLaws laws;
   fv::View<PhaseState*> states;
   fv::View<FaceFlux*> fluxes;
-  fv::View<double* [components]> before, source;
+  fv::View<double*[components]> before, source;
   Out R;  ///< out, overwritten
 
   KOKKOS_FUNCTION void operator()(LocalIndex K) const {
@@ -64,7 +64,7 @@ struct Equations {
 struct Reference {
   Around around;
   double rock_filled;  ///< phi rho_w: the masses of water are counted from it
-  fv::View<double* [components]> before, source, inflow;
+  fv::View<double*[components]> before, source, inflow;
 
   KOKKOS_FUNCTION void operator()(LocalIndex K, double& sum) const {
     for (int c = 0; c < components; ++c) {
@@ -95,8 +95,7 @@ struct Fill {
 
     double G[unknowns_per_cell];
     laws.undersaturation_slopes(states(K), G);
-    for (int u = 0; u < unknowns_per_cell; ++u)
-      A.values(contact + u) = unknown[u] * (b(K, 0) * G[u] + (u == gas_saturation ? a(K, 0) : 0));
+    for (int u = 0; u < unknowns_per_cell; ++u) A.values(contact + u) = unknown[u] * (b(K, 0) * G[u] + (u == gas_saturation ? a(K, 0) : 0));
 
     const Masses l = laws.masses(states(K));
     for (int c = 0; c < components; ++c) {
@@ -134,9 +133,7 @@ Teuchos::RCP<algebra::MultiVector> coordinates_of(const TwoPhaseOperator& flow) 
 }  // namespace
 
 FlowScales::FlowScales(const TwoPhaseLaws& laws, double P_ref)
-    : pressure(P_ref),
-      mass{laws.porosity * laws.rho_w, laws.porosity * laws.H * P_ref},
-      unknown{1, P_ref, laws.H * P_ref / laws.beta_l} {}
+    : pressure(P_ref), mass{laws.porosity * laws.rho_w, laws.porosity * laws.H * P_ref}, unknown{1, P_ref, laws.H * P_ref / laws.beta_l} {}
 
 TwoPhaseProblem::TwoPhaseProblem(const TwoPhaseOperator& flow, const FlowScales& scales, const algebra::LinearParams& params,
                                  Teuchos::RCP<const Vector> origin)

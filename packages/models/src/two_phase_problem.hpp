@@ -7,8 +7,8 @@ namespace thixis::models {
 
 /// Sizes that make the equations and the increments of the unknowns numbers without unit, derived from the data.
 struct FlowScales {
-  double pressure;                   ///< P_ref [Pa]
-  double mass[components];           ///< phi rho_w, phi H P_ref [kg/m^3]
+  double pressure;                    ///< P_ref [Pa]
+  double mass[components];            ///< phi rho_w, phi H P_ref [kg/m^3]
   double unknown[unknowns_per_cell];  ///< of increments: 1, P_ref, H P_ref/beta_l
 
   FlowScales(const TwoPhaseLaws& laws, double P_ref);

@@ -322,7 +322,7 @@ const std::vector<Case>& cases() {
       {"gas injection 2d", Model::two_phase,
        "200 m x 20 m, with gravity: hydrogen enters through the lowest quarter of the left side for 5e5 years."},
       {"closed column", Model::two_phase,
-       "Interval of 20 m, upright, closed: hydrogen made at the foot becomes gas for a while, dissolves, and gathers below a cap of gas."},
+       "Interval of 20 m, upright, closed: hydrogen made at the foot becomes gas there, which dissolves again and gathers at the top."},
   };
   return all;
 }

@@ -6,9 +6,9 @@
 namespace thixis::scene {
 namespace {
 
-constexpr double injected = 5.57e-6;     // hydrogen [kg/(m^2 year)]
-constexpr double end_of_injection = 5e5;  // years
-constexpr double P_0 = 1e6;               // Pa
+constexpr double injected = 5.57e-6;                     // hydrogen [kg/(m^2 year)]
+constexpr double end_of_injection = 5e5;                 // years
+constexpr double P_0 = 1e6;                              // Pa
 constexpr double height_2d = 20, height_of_column = 20;  // m
 
 FlowState water_at(const FieldPtr& P) { return {constant(0), P, constant(0)}; }
@@ -37,22 +37,20 @@ void gas_injection(TwoPhaseScene& scene) {
 }
 
 void gas_injection_2d(TwoPhaseScene& scene) {
-  const auto lowest_quarter = [](double, double y, double t) {
-    return y < height_2d / 4 && t < end_of_injection ? 4 * injected : 0.0;
-  };
+  const auto lowest_quarter = [](double, double y, double t) { return y < height_2d / 4 && t < end_of_injection ? 4 * injected : 0.0; };
   inject(scene, hydrostatic(scene.medium.density_water, -scene.gravity[1], height_2d, [](double, double y) { return y; }),
          formula(lowest_quarter));
 }
 
 /// x points upwards. Without gas somewhere a closed column of incompressible water would have no definite pressure: there is a cap of
-/// gas at the top, which outlives the one at the foot.
+/// gas at the top. The volume of all gas stays what it is; that at the foot comes, goes, and gathers at the top.
 void closed_column(TwoPhaseScene& scene) {
-  const auto in_cap = [](double x) { return x > 16; };
+  const auto in_cap = [](double x) { return x > 18; };
   scene.time_unit = "year";
-  scene.initial = {formula([=](double x, double) { return in_cap(x) ? 0.02 : 0.0; }),
+  scene.initial = {formula([=](double x, double) { return in_cap(x) ? 0.01 : 0.0; }),
                    hydrostatic(scene.medium.density_water, -scene.gravity[0], height_of_column, [](double x, double) { return x; }),
-                   formula([=](double x, double) { return in_cap(x) ? 1.1e-4 : 3e-5; })};
-  scene.hydrogen_source = formula([](double x, double, double t) { return x < 1 && t < 1000 ? 2e-5 : 0.0; });
+                   formula([=](double x, double) { return in_cap(x) ? 1e-4 : 3e-5; })};
+  scene.hydrogen_source = formula([](double x, double, double t) { return x < 1 && t < 500 ? 2e-5 : 0.0; });
 }
 
 }  // namespace

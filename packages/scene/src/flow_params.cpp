@@ -16,10 +16,9 @@ struct Entry {
 };
 
 const std::vector<Entry>& entries() {
-  static const std::vector<Entry> all = {
-      {"S", &B::S, FlowBoundaryKind::state},         {"s_g", &B::s_g, FlowBoundaryKind::state},
-      {"P", &B::P, FlowBoundaryKind::state},         {"chi", &B::chi, FlowBoundaryKind::state},
-      {"water", &B::water, FlowBoundaryKind::flux}, {"hydrogen", &B::hydrogen, FlowBoundaryKind::flux}};
+  static const std::vector<Entry> all = {{"S", &B::S, FlowBoundaryKind::state},        {"s_g", &B::s_g, FlowBoundaryKind::state},
+                                         {"P", &B::P, FlowBoundaryKind::state},        {"chi", &B::chi, FlowBoundaryKind::state},
+                                         {"water", &B::water, FlowBoundaryKind::flux}, {"hydrogen", &B::hydrogen, FlowBoundaryKind::flux}};
   return all;
 }
 
@@ -100,7 +99,8 @@ const core::Schema<FlowParams>& FlowParams::schema() {
           .parameter("diffusion", &P::diffusion, core::at_least(0), "D [m²/s] of hydrogen dissolved in water.")
           .parameter("molar mass of water", &P::molar_mass_water, core::above(0), "M_w [kg/mol].")
           .parameter("molar mass of hydrogen", &P::molar_mass_hydrogen, core::above(0), "M_h [kg/mol].")
-          .parameter("henry", &P::henry, core::above(0), "Henry's constant [mol/(Pa m³)]: hydrogen that water dissolves per pressure of the gas.")
+          .parameter("henry", &P::henry, core::above(0),
+                     "Henry's constant [mol/(Pa m³)]: hydrogen that water dissolves per pressure of the gas.")
           .parameter("temperature", &P::temperature, core::above(0), "T [K].")
           .parameter("n", &P::n, core::above(1), "Exponent of van Genuchten's laws.")
           .parameter("P_r", &P::P_r, core::above(0), "Pressure of van Genuchten's capillary law [Pa].")

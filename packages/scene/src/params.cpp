@@ -182,8 +182,7 @@ void examine_two_phase(const SceneParams& params, const Report& report) {
   if (params.data) report("data", "these are functions of membranes; describe two-phase flow in 'flow'.");
   if (!params.boundary.empty()) report("boundary", "the boundary of two-phase flow is described in 'flow/boundary'; move this there.");
   if (!params.interface.empty()) report("interface", "finite volumes cut no cells; drop this.");
-  if (!params.case_name && !params.flow)
-    report("", "nothing says which problem to solve; give a catalogued 'case' or a sublist 'flow'.");
+  if (!params.case_name && !params.flow) report("", "nothing says which problem to solve; give a catalogued 'case' or a sublist 'flow'.");
   if (params.case_name) examine_case(params, report);
   if (params.flow) examine_flow(*params.flow, report);
 }
@@ -202,8 +201,7 @@ void examine_formula(const std::string& path, const core::Formula& formula, cons
 
 void examine_constants(const std::string& path, const Constants& constants, const Report& report) {
   for (const char* taken : {"x", "y", "t", "r", "pi"})
-    if (constants.count(taken) > 0)
-      report(path + "/" + taken, "this name has a meaning in every expression already; take another one.");
+    if (constants.count(taken) > 0) report(path + "/" + taken, "this name has a meaning in every expression already; take another one.");
 }
 
 std::string to_text(Model model) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "sample.hpp"
+#include "thixis/core/error.hpp"
 #include "thixis/scene/membranes.hpp"
 
 namespace thixis::scene {
@@ -17,10 +18,17 @@ MembraneScene catalogued(const std::string& name) {
   return membrane_scene(params);
 }
 
+std::vector<Case> cases_of_membranes() {
+  std::vector<Case> membranes;
+  for (const Case& c : cases())
+    if (c.model != Model::two_phase) membranes.push_back(c);
+  return membranes;
+}
+
 /// The scenes whose solution is known.
 std::vector<MembraneScene> solved_scenes() {
   std::vector<MembraneScene> scenes;
-  for (const Case& c : cases())
+  for (const Case& c : cases_of_membranes())
     if (MembraneScene scene = catalogued(c.name); scene.exact) scenes.push_back(scene);
   return scenes;
 }
@@ -171,7 +179,7 @@ TEST(Case, starts_the_disks_from_flat_membranes) {
 }
 
 TEST(Case, has_unit_tensions_that_kernels_may_take_as_constant) {
-  for (const Case& c : cases()) {
+  for (const Case& c : cases_of_membranes()) {
     const MembraneScene scene = catalogued(c.name);
     for (int alpha = 0; alpha < scene.count; ++alpha) EXPECT_EQ(*scene.tension[alpha]->constant(), 1);
     EXPECT_EQ(scene.name, c.name);
@@ -180,7 +188,7 @@ TEST(Case, has_unit_tensions_that_kernels_may_take_as_constant) {
 }
 
 TEST(Case, over_an_obstacle_has_one_membrane_and_leaves_the_other_null) {
-  for (const Case& c : cases()) {
+  for (const Case& c : cases_of_membranes()) {
     const MembraneScene scene = catalogued(c.name);
     const bool one = c.model == Model::obstacle;
     EXPECT_EQ(scene.count, one ? 1 : 2) << c.name;
@@ -192,6 +200,69 @@ TEST(Case, over_an_obstacle_has_one_membrane_and_leaves_the_other_null) {
       EXPECT_EQ(scene.exact->gradient[1][0] == nullptr, one) << c.name;
     }
   }
+}
+
+/// What the deck gives takes the place of what the case brings, one entry at a time.
+TEST(FlowCase, is_changed_by_what_the_deck_gives) {
+  SceneParams params;
+  params.model = Model::two_phase;
+  for (const Case& c : cases()) {
+    if (c.model != Model::two_phase) continue;
+    params.case_name = c.name;
+    const TwoPhaseScene scene = two_phase_scene(params);
+    EXPECT_EQ(scene.name, c.name);
+    EXPECT_EQ(scene.sentence, c.sentence);
+    EXPECT_EQ(scene.medium.permeability, 5e-20);
+    params.flow.emplace();
+    params.flow->permeability = 1e-16;
+    params.flow->capillary_law = CapillaryLaw::quadratic;
+    params.flow->boundary["right"].kind = FlowBoundaryKind::state;
+    params.flow->boundary["right"].S.text = "0.75";
+    const TwoPhaseScene changed = two_phase_scene(params);
+    EXPECT_EQ(changed.medium.permeability, 1e-16);
+    EXPECT_EQ(changed.medium.porosity, 0.15);
+    EXPECT_EQ(changed.capillary_law, CapillaryLaw::quadratic);
+    Sample end;
+    end.add(200, 20);
+    EXPECT_EQ(end(changed.boundary.at("right").state.s_g)[0], 0.25);
+    EXPECT_EQ(end(changed.boundary.at("right").state.P)[0], 1e6);
+    EXPECT_EQ(changed.boundary.count("left"), scene.boundary.count("left"));
+    params.flow.reset();
+  }
+}
+
+TEST(FlowCase, injects_until_half_of_a_million_years) {
+  SceneParams params;
+  params.model = Model::two_phase;
+  for (const auto& [name, rate] : {std::pair("gas injection", 5.57e-6), std::pair("gas injection 2d", 4 * 5.57e-6)}) {
+    params.case_name = name;
+    const FlowBoundary left = two_phase_scene(params).boundary.at("left");
+    Sample points;
+    points.add(0, 2);
+    points.add(0, 6);
+    EXPECT_EQ(points(left.hydrogen, 4.9e5)[0], rate);
+    EXPECT_EQ(points(left.hydrogen, 5.1e5)[0], 0);
+    EXPECT_EQ(points(left.hydrogen, 4.9e5)[1], rate > 6e-6 ? 0 : rate);
+  }
+}
+
+TEST(FlowDeck, refuses_what_contradicts_itself) {
+  SceneParams params;
+  params.model = Model::two_phase;
+  EXPECT_THROW(two_phase_scene(params), core::InputError);  // neither case nor flow
+  params.flow.emplace();
+  EXPECT_NO_THROW(two_phase_scene(params));
+  params.flow->initial.S.text = params.flow->initial.s_g.text = "0.5";
+  EXPECT_THROW(two_phase_scene(params), core::InputError);
+  params.flow.emplace();
+  params.flow->boundary["left"].hydrogen.text = "1";  // of kind no-flow
+  EXPECT_THROW(two_phase_scene(params), core::InputError);
+  params.flow.emplace();
+  params.flow->S_lr = params.flow->S_gr = 0.5;
+  EXPECT_THROW(two_phase_scene(params), core::InputError);
+  params.flow.emplace();
+  params.data.emplace();
+  EXPECT_THROW(two_phase_scene(params), core::InputError);
 }
 
 }  // namespace

@@ -37,10 +37,10 @@ struct FlowBoundaryParams : FlowStateParams {
 
 /// Rock and fluids, in SI units: the same in all places and at all times. The defaults are those of the gas injection benchmark of MoMaS.
 struct RockAndFluids {
-  double porosity = 0.15, permeability = 5e-20;             ///< -, m^2
-  double viscosity_water = 1e-3, viscosity_hydrogen = 9e-6;  ///< Pa s
-  double density_water = 1000;                               ///< kg/m^3
-  double diffusion = 3e-9;                                   ///< m^2/s, of dissolved hydrogen
+  double porosity = 0.15, permeability = 5e-20;                ///< -, m^2
+  double viscosity_water = 1e-3, viscosity_hydrogen = 9e-6;    ///< Pa s
+  double density_water = 1000;                                 ///< kg/m^3
+  double diffusion = 3e-9;                                     ///< m^2/s, of dissolved hydrogen
   double molar_mass_water = 1e-2, molar_mass_hydrogen = 2e-3;  ///< kg/mol
   double henry = 7.65e-6;                                      ///< mol/(Pa m^3)
   double temperature = 303;                                    ///< K
@@ -75,14 +75,14 @@ struct FlowBoundary {
 /// Water and hydrogen in a porous rock, in a liquid and a gas phase that may be absent (docs/methods/two_phase.md).
 /// Lengths in m; rates per unit of time of the deck, in which t is measured, too; everything else in SI units.
 struct TwoPhaseScene {
-  std::string name;      ///< of the case, or "flow"
-  std::string sentence;  ///< what it shows
+  std::string name;       ///< of the case, or "flow"
+  std::string sentence;   ///< what it shows
   std::string time_unit;  ///< "year" where the rates of a case are meant per year; empty: whatever the deck says
   RockAndFluids medium;
   CapillaryLaw capillary_law = CapillaryLaw::van_genuchten;
-  std::array<double, 2> gravity = {0, 0};       ///< g [m/s^2]
+  std::array<double, 2> gravity = {0, 0};  ///< g [m/s^2]
   FlowState initial;
-  FieldPtr water_source, hydrogen_source;       ///< kg per m^3 and unit of time
+  FieldPtr water_source, hydrogen_source;        ///< kg per m^3 and unit of time
   std::map<std::string, FlowBoundary> boundary;  ///< by tag; no flow through the others
 };
 
