@@ -31,10 +31,12 @@ Lists lists(const std::vector<std::vector<LocalIndex>>& of, const std::string& n
   return out;
 }
 
-/// sums(node, j) = sum over the owned cells around it of p_j there; sums(node, m + j) = sum over the held faces of the values given.
+/// sums(node, j) = sum over the owned cells around it of p_j there; sums(node, m + j) = sum over the held faces F of
+/// the value given there, at a corner with what p_j of the cell behind F changes by from the midpoint of F.
 struct Gather {
   Lists cells, held;
-  View<const double*[2]> centre, position;
+  View<const LocalIndex* [2]> face_cells;
+  View<const double*[2]> centre, face_centre, position;
   View<const Quadratic**> p;
   View<const double**> given;
   MultiVector::dual_view_type::t_dev sums;  ///< out, overwritten
@@ -47,8 +49,12 @@ struct Gather {
       const double y[2] = {position(node, 0) - centre(K, 0), position(node, 1) - centre(K, 1)};
       for (int j = 0; j < m; ++j) sums(node, j) += p(K, j)(y);
     }
-    for (LocalIndex k = held.begin(node); k < held.begin(node + 1); ++k)
-      for (int j = 0; j < m; ++j) sums(node, m + j) += given(held.entry(k), j);
+    for (LocalIndex k = held.begin(node); k < held.begin(node + 1); ++k) {
+      const LocalIndex F = held.entry(k), K = face_cells(F, 0);
+      const double y[2] = {position(node, 0) - centre(K, 0), position(node, 1) - centre(K, 1)};
+      const double middle[2] = {face_centre(F, 0) - centre(K, 0), face_centre(F, 1) - centre(K, 1)};
+      for (int j = 0; j < m; ++j) sums(node, m + j) += given(F, j) + p(K, j)(y) - p(K, j)(middle);
+    }
   }
 };
 
@@ -246,9 +252,9 @@ NodalAverage::~NodalAverage() = default;
 void NodalAverage::operator()(const View<const Quadratic**>& p, const View<const double**>& given, const View<double**>& square) const {
   const Impl& in = *impl_;
   MultiVector sums(in.nodes, 2 * p.extent(1));
-  Kokkos::parallel_for(
-      "thixis::fv::gather_nodes", Range(0, in.position.extent_int(0)),
-      Gather{in.cells, in.held, in.grid.centre, in.position, p, given, sums.getLocalViewDevice(Tpetra::Access::OverwriteAll)});
+  Kokkos::parallel_for("thixis::fv::gather_nodes", Range(0, in.position.extent_int(0)),
+                       Gather{in.cells, in.held, in.grid.face_cells, in.grid.centre, in.grid.face_centre, in.position, p, given,
+                              sums.getLocalViewDevice(Tpetra::Access::OverwriteAll)});
   in.add_up(sums);
   Kokkos::parallel_for("thixis::fv::distance_from_average", Range(0, in.grid.owned_cells),
                        Distance{RaviartThomas(in.grid), in.corners, in.face_node, in.position, in.count, p,

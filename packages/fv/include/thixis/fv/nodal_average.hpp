@@ -7,8 +7,9 @@
 namespace thixis::fv {
 
 /// Continuous functions from broken quadratic polynomials: Oswald's averages at the corners of the cells, the midpoints of their faces
-/// and the centres of rectangles and intervals, which make up Lagrange's P_2 on intervals and triangles and Q_2 on rectangles. A node on
-/// a held face takes the value given there, a corner between held faces the mean of theirs.
+/// and the centres of rectangles and intervals, which make up Lagrange's P_2 on intervals and triangles and Q_2 on rectangles. The
+/// midpoint of a held face takes the value given there, its corners with what the polynomial behind it changes by towards them (the mean
+/// over the held faces around them).
 class NodalAverage {
  public:
   /// `held`: per local face. Collective.
