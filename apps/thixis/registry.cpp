@@ -50,7 +50,8 @@ std::array<scene::FieldPtr, 3> initial_fields(const drive::RunParams& params) {
 void refuse_initial(const drive::RunParams& params) {
   const auto& initial = params.newton.initial;
   if (initial.u || initial.u1 || initial.u2 || initial.lambda)
-    throw core::InputError("newton/initial: every step in time begins with the one before; drop it, or give initial data in the block 'scene'.");
+    throw core::InputError(
+        "newton/initial: every step in time begins with the one before; drop it, or give initial data in the block 'scene'.");
 }
 
 std::unique_ptr<models::Model> make_two_phase(const drive::RunParams& params) {
@@ -62,7 +63,11 @@ std::unique_ptr<models::Model> make_two_phase(const drive::RunParams& params) {
     throw core::InputError("time/unit: the rates of the case '" + scene.name + "' are per year; write year.");
   if (time.unit == drive::TimeUnit::none)
     throw core::InputError("time/unit: viscosities and permeabilities have units, and so has time; write second or year.");
-  return models::two_phase(std::move(scene), params.linear, drive::seconds_in(time.unit), params.output.probes);
+  const double seconds = drive::seconds_in(time.unit);
+  models::TwoPhaseBoundParams bound;
+  bound.measure = params.stopping.measure;
+  if (params.stopping.time_scale) bound.time_scale = *params.stopping.time_scale * seconds;
+  return models::two_phase(std::move(scene), params.linear, seconds, params.output.probes, bound);
 }
 
 }  // namespace
@@ -80,7 +85,8 @@ std::unique_ptr<models::Model> make_model(const drive::RunParams& params) {
       refuse_initial(params);
       return models::parabolic_membranes(scene::membrane_scene(params.scene), make_space, params.method, params.linear, check_mesh);
     default:
-      throw core::InputError("scene/model: this version does not serve " + scene::to_text(params.scene.model) + "; write membranes, obstacle, parabolic membranes or two-phase.");
+      throw core::InputError("scene/model: this version does not serve " + scene::to_text(params.scene.model) +
+                             "; write membranes, obstacle, parabolic membranes or two-phase.");
   }
 }
 

@@ -72,9 +72,10 @@ const core::Schema<StoppingParams>& StoppingParams::schema() {
               "or adaptivity need it.")
           .parameter("target", &Params::target, core::above(0),
                      "The mesh is refined until the energy error is guaranteed to be at most this.")
-          .choice("measure", &Params::measure, {{"residual", Measure::residual}, {"literature", Measure::literature}},
-                  "Two-phase flow: what the estimate measures, dual norms of the residuals without units, or the sum of the literature in SI "
-                  "units.")
+          .choice(
+              "measure", &Params::measure, {{"residual", Measure::residual}, {"literature", Measure::literature}},
+              "Two-phase flow: what the estimate measures, dual norms of the residuals without units, or the sum of the literature in SI "
+              "units.")
           .parameter("time scale", &Params::time_scale, core::above(0),
                      "Two-phase flow: the time in units of which the estimate counts, in the unit of time of the deck; if not given, 2500 "
                      "years.")

@@ -77,12 +77,22 @@ class Run {
     }
   }
 
-  /// Newton from the state before; false if it fails.
+  /// Newton from a prediction or, where there is none or it leads nowhere, from the state before; false if it fails.
   bool attempt(const models::TimeStep& step, Vector& X) {
+    bool ahead = false;
     {
       const core::Region region("assembly");
       evolution_.begin(step, *out_.X);
+      ahead = evolution_.predict(X);
     }
+    if (solve(step, X)) return true;
+    if (!ahead) return false;
+    retry(step, "from the predicted start: " + out_.last.why, step.length());
+    Tpetra::deep_copy(X, *out_.X);
+    return solve(step, X);
+  }
+
+  bool solve(const models::TimeStep& step, Vector& X) {
     complementarity::NewtonParams newton = params_.newton;
     newton.sweeps = params_.newton.sweeps.value_or(0);
     out_.last = complementarity::newton(evolution_.problem(), X, newton, params_.stopping, params_.linear.check_every, on_step(step.end),
@@ -108,9 +118,10 @@ class Run {
     return false;
   }
 
-  void retry(const models::TimeStep& step, const std::string& why) {
+  void retry(const models::TimeStep& step, const std::string& why) { retry(step, why, control_.length()); }
+  void retry(const models::TimeStep& step, const std::string& why, double next) {
     ++out_.at.retries;
-    if (observer_.retry) observer_.retry(out_.at, step.length(), why, control_.length());
+    if (observer_.retry) observer_.retry(out_.at, step.length(), why, next);
   }
 
   /// Whether the mesh was refined because the share of the step in the error is too large.

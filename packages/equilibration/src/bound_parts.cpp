@@ -105,10 +105,15 @@ void BoundParts::discretization_flux(const Iterate& iterate, int alpha, const Co
   (*patches)({patch_density, patch_target, m.data.traction}, m.sigma_disc);
 }
 
-void BoundParts::measure(const method::Coefficients& u, int alpha) const {
+Stress::Fluxes BoundParts::fluxes(int alpha) const {
   const Membrane& m = membrane[alpha];
   const auto if_any = [](bool has, const CellTable& sigma) { return has ? ConstCellTable(sigma) : ConstCellTable(); };
-  m.stress->norms(u, m.w, {m.sigma_disc, if_any(m.has_alg, m.sigma_alg), if_any(m.has_lin, m.sigma_lin)}, m.norms);
+  return {m.sigma_disc, if_any(m.has_alg, m.sigma_alg), if_any(m.has_lin, m.sigma_lin)};
+}
+
+void BoundParts::measure(const method::Coefficients& u, int alpha) const {
+  const Membrane& m = membrane[alpha];
+  m.stress->norms(u, m.w, fluxes(alpha), m.norms);
 }
 
 double BoundParts::mean_flux_term() const {
@@ -204,7 +209,8 @@ std::size_t BoundParts::bytes() const {
   std::size_t tables = moments.size() + lambda.size() + positive.size() + patch_lambda.size() + patch_density.size() + patch_target.size();
   for (int alpha = 0; alpha < problem.count; ++alpha) {
     const Membrane& m = membrane[alpha];
-    tables += m.data.force.size() + m.w.size() + m.r_alg.size() + m.r_lin.size() + m.sigma_disc.size() + m.sigma_alg.size() + m.sigma_lin.size();
+    tables +=
+        m.data.force.size() + m.w.size() + m.r_alg.size() + m.r_lin.size() + m.sigma_disc.size() + m.sigma_alg.size() + m.sigma_lin.size();
   }
   tables += owned * (10 + 4 * problem.count);  // parts and norms of cells
   return sizeof(double) * tables + lift.bytes() + feasible->bytes() + multiplier->bytes() + (patches ? patches->bytes() : 0);

@@ -61,6 +61,8 @@ struct BoundParts {
   void lift_residual(const algebra::Vector& R, const CellTable& r, const CellTable& sigma, bool& has) const;
   /// `rate`: a polynomial source to be taken from the force, densities on the patch cells; of length 0: none.
   void discretization_flux(const Iterate& iterate, int alpha, const ConstCellTable& rate) const;
+  /// The fluxes of a membrane.
+  Stress::Fluxes fluxes(int alpha) const;
   /// The norms of w plus the fluxes of a membrane; u: what w was made from.
   void measure(const method::Coefficients& u, int alpha) const;
 

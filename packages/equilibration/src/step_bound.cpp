@@ -22,15 +22,6 @@ double mean_square(double a, double b) { return (a * a + a * b + b * b) / 3; }
 /// b(theta) = 4 theta (1 - theta), which is what data that are not affine in time add: ∫ b, ∫ b², ∫ b'² over ]0, 1[.
 constexpr double bulge_mean = 2.0 / 3, bulge_square = 8.0 / 15, bulge_rate = 16.0 / 3;
 
-/// first u + second v.
-Coefficients combine(double first, const Coefficients& u, double second, const Coefficients& v) {
-  const Coefficients sum(Kokkos::view_alloc(Kokkos::WithoutInitializing, "thixis::equilibration::in_time"), u.extent(0));
-  Kokkos::parallel_for(
-      "thixis::equilibration::in_time", Kokkos::RangePolicy<>(0, u.extent(0)),
-      KOKKOS_LAMBDA(std::size_t e) { sum(e) = first * u(e) + second * v(e); });
-  return sum;
-}
-
 /// Densities of (u - before)/tau on the patch cells.
 struct Rate {
   Kokkos::View<const LocalIndex**, Kokkos::LayoutRight> entries;
@@ -93,6 +84,7 @@ struct StepBound::Impl : BoundParts {
   // the step
   double first = 0, last = 0;
   Coefficients before[2];
+  CellTable w_before[2];
   std::shared_ptr<const FeasiblePair> feasible_before;
   FeasiblePair::Continuous s_c_before;
   FeasiblePair::Way way_before;
@@ -138,6 +130,7 @@ struct StepBound::Impl : BoundParts {
       least[alpha] = comm.min(lowest);
       rate[alpha] = CellTable("thixis::equilibration::rate", patch_cells, functions);
       change[alpha] = View<double*>("thixis::equilibration::change_in_step", owned);
+      w_before[alpha] = CellTable("thixis::equilibration::stress_before", patch_cells, 2 * n);
     }
     const reference::Modal orthonormal(space.basis().degree());
     modal = matrix("thixis::equilibration::to_modal", functions, functions, to_modal(space.basis(), orthonormal));
@@ -179,12 +172,6 @@ struct StepBound::Impl : BoundParts {
   }
 
   void equilibrate(int alpha, const Vector& cut_off);
-  /// |w + sigma| at time theta in the step: 0 at its begin, 1 at its end.
-  void measure_at(double theta, int alpha) {
-    const Coefficients u = theta == 1 ? iterate.u[alpha] : combine(theta, iterate.u[alpha], 1 - theta, before[alpha]);
-    (*membrane[alpha].stress)(u, membrane[alpha].w);
-    measure(u, alpha);
-  }
   double oscillation_of_rate(int alpha, LocalIndex K) const;
   void sum_up();
 };
@@ -219,11 +206,7 @@ void StepBound::Impl::equilibrate(int alpha, const Vector& cut_off) {
     add(extra, m.sigma_disc);
   }
 
-  const Coefficients increment = combine(1, iterate.u[alpha], -1, before[alpha]);
-  (*m.stress)(increment, m.w);
-  m.stress->norms(increment, m.w, {}, m.norms);
-  Kokkos::deep_copy(change[alpha], m.norms.disc);
-  measure_at(0.5, alpha);
+  m.stress->norms_between(iterate.u[alpha], m.w, before[alpha], w_before[alpha], fluxes(alpha), m.norms, change[alpha]);
 }
 
 /// (h_K/j) mu^{-1/2} |(1 - Pi_q) ∂_t s_N|_K: 0 in conforming spaces, whose fluxes are of degree p.
@@ -383,7 +366,10 @@ void StepBound::begin(double begin, double end, const Coefficients (&before)[2])
   Impl& in = *impl_;
   in.first = begin;
   in.last = end;
-  for (int alpha = 0; alpha < in.problem.count; ++alpha) in.before[alpha] = before[alpha];
+  for (int alpha = 0; alpha < in.problem.count; ++alpha) {
+    in.before[alpha] = before[alpha];
+    (*in.membrane[alpha].stress)(before[alpha], in.w_before[alpha]);
+  }
   // the pair at the begin: made from `before` alone, so that a run that goes on from a checkpoint makes the same
   in.feasible_before = in.pair_at(begin);
   in.feasible = in.feasible_before;
@@ -445,7 +431,7 @@ StepBound::Errors StepBound::errors() {
   Impl& in = *impl_;
   double square = 0;
   for (int alpha = 0; alpha < in.problem.count; ++alpha) {
-    in.measure_at(1, alpha);
+    in.measure(in.iterate.u[alpha], alpha);
     const auto& m = in.membrane[alpha];
     for (LocalIndex K = 0; K < in.owned; ++K) {
       const double of_lambda = in.patches ? 0 : poincare * in.h(K) * in.multiplier_rest(K) / std::sqrt(m.least_tension[K]);
@@ -519,8 +505,8 @@ std::size_t StepBound::bytes() const {
   const Impl& in = *impl_;
   std::size_t tables = in.remaining.size() + in.extra.size() + in.way.gap.size() + in.way_before.gap.size() + 6 * in.owned;
   for (int alpha = 0; alpha < in.problem.count; ++alpha)
-    tables += in.rate[alpha].size() + in.way.averages[alpha].size() + in.way.closing[alpha].size() + in.moved_before[alpha].size() +
-              in.sigma_before[alpha].size() + in.before[alpha].size();
+    tables += in.rate[alpha].size() + in.w_before[alpha].size() + in.way.averages[alpha].size() + in.way.closing[alpha].size() +
+              in.moved_before[alpha].size() + in.sigma_before[alpha].size() + in.before[alpha].size();
   return in.BoundParts::bytes() + sizeof(double) * tables;
 }
 

@@ -83,17 +83,27 @@ struct ConstantNorms {
   Metrics metric;
   double factor;       ///< mu^{-1/2}
   Stress::Norms norm;  ///< out, overwritten
+  ConstCellTable w_before;
+  View<double*> change;  ///< out, overwritten; of length 0: w alone counts, and not the mean of both
   KOKKOS_FUNCTION void operator()(int K) const {
     const int n = w.extent_int(1) / 2, m = sigma.disc.extent_int(1) / 2;
     const Metric M = metric(K);
-    const int modes = m > n ? m : n;
-    double v[2][most_modes];
+    const bool between = change.extent(0) > 0;
+    double v[2][most_modes], c[2][most_modes];
     for (int d = 0; d < 2; ++d)
-      for (int i = 0; i < modes; ++i) v[d][i] = (i < m ? sigma.disc(K, d * m + i) : 0) + (i < n ? w(K, d * n + i) : 0);
-    norm.disc(K) = factor * root(M.square(v[0], v[1], modes));
+      for (int i = 0; i < m; ++i) v[d][i] = sigma.disc(K, d * m + i) + (i < n ? w(K, d * n + i) : 0);
+    if (between) {
+      for (int d = 0; d < 2; ++d)
+        for (int i = 0; i < n; ++i) {
+          c[d][i] = w(K, d * n + i) - w_before(K, d * n + i);
+          v[d][i] -= 0.5 * c[d][i];
+        }
+      change(K) = factor * root(M.square(c[0], c[1], n));
+    }
+    norm.disc(K) = factor * root(M.square(v[0], v[1], m));
     add(sigma.alg, K, v);
     add(sigma.lin, K, v);
-    norm.whole(K) = factor * root(M.square(v[0], v[1], modes));
+    norm.whole(K) = factor * root(M.square(v[0], v[1], m));
     norm.alg(K) = factor * size(sigma.alg, M, K);
     norm.lin(K) = factor * size(sigma.lin, M, K);
   }
@@ -128,7 +138,12 @@ class ConstantStress final : public StressBase {
   }
   void norms(const method::Coefficients&, const ConstCellTable& w, const Fluxes& sigma, const Norms& norm) const override {
     Kokkos::parallel_for("thixis::equilibration::norms", Kokkos::RangePolicy<>(0, owned_),
-                         ConstantNorms{w, sigma, gradient_.metric, 1 / std::sqrt(mu_), norm});
+                         ConstantNorms{w, sigma, gradient_.metric, 1 / std::sqrt(mu_), norm, {}, {}});
+  }
+  void norms_between(const method::Coefficients&, const ConstCellTable& w, const method::Coefficients&, const ConstCellTable& w_before,
+                     const Fluxes& sigma, const Norms& norm, const View<double*>& change) const override {
+    Kokkos::parallel_for("thixis::equilibration::norms_between", Kokkos::RangePolicy<>(0, owned_),
+                         ConstantNorms{w, sigma, gradient_.metric, 1 / std::sqrt(mu_), norm, w_before, change});
   }
 
  private:
@@ -235,6 +250,19 @@ class VaryingStress final : public StressBase {
   void norms(const method::Coefficients& u, const ConstCellTable&, const Fluxes& sigma, const Norms& norm) const override {
     Kokkos::parallel_for("thixis::equilibration::norms_varying", Kokkos::RangePolicy<>(0, owned_),
                          VaryingNorms{of(u), points_, sigma, factor_, norm});
+  }
+  void norms_between(const method::Coefficients& u, const ConstCellTable& w, const method::Coefficients& before, const ConstCellTable&,
+                     const Fluxes& sigma, const Norms& norm, const View<double*>& change) const override {
+    const method::Coefficients middle("thixis::equilibration::middle", u.extent(0)),
+        difference("thixis::equilibration::difference", u.extent(0));
+    Kokkos::parallel_for(
+        "thixis::equilibration::between", Kokkos::RangePolicy<>(0, u.extent(0)), KOKKOS_LAMBDA(std::size_t e) {
+          middle(e) = 0.5 * (u(e) + before(e));
+          difference(e) = u(e) - before(e);
+        });
+    norms(difference, w, {}, norm);
+    Kokkos::deep_copy(change, norm.disc);
+    norms(middle, w, sigma, norm);
   }
 
  private:

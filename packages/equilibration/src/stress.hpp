@@ -21,8 +21,11 @@ class Stress {
     View<double*> disc;      ///< |mu^{1/2} grad u + mu^{-1/2} disc|_K
     View<double*> alg, lin;  ///< |mu^{-1/2} alg|_K, |mu^{-1/2} lin|_K, from above
   };
-  /// In one pass over the fluxes; w as above, that of u. Without any flux disc is |mu^{1/2} grad u|_K. Overwrites the norms.
+  /// In one pass over the fluxes; w as above, that of u. Overwrites the norms.
   virtual void norms(const method::Coefficients& u, const ConstCellTable& w, const Fluxes& sigma, const Norms& norm) const = 0;
+  /// The same with (u + before)/2 in place of u, and change = |mu^{1/2} grad (u - before)|_K; w, w_before: those of u and of `before`.
+  virtual void norms_between(const method::Coefficients& u, const ConstCellTable& w, const method::Coefficients& before,
+                             const ConstCellTable& w_before, const Fluxes& sigma, const Norms& norm, const View<double*>& change) const = 0;
 };
 
 /// `least`: of the tension in each owned cell.

@@ -12,6 +12,7 @@
 #include "thixis/fv/host.hpp"
 #include "two_phase_balance.hpp"
 #include "two_phase_bound.hpp"
+#include "two_phase_predictor.hpp"
 #include "two_phase_probes.hpp"
 #include "two_phase_problem.hpp"
 
@@ -74,8 +75,9 @@ class BoundSoFar {
 class TwoPhaseEvolution final : public Evolution {
  public:
   TwoPhaseEvolution(fv::Grid grid, const scene::TwoPhaseScene& scene, const algebra::LinearParams& linear, double seconds_per_unit,
-                    const std::vector<double>& probes)
-      : flow_(std::move(grid), scene, seconds_per_unit),
+                    const std::vector<double>& probes, const TwoPhaseBoundParams& bound)
+      : bound_params_(bound),
+        flow_(std::move(grid), scene, seconds_per_unit),
         initial_(flow_.initial()),
         problem_(flow_, FlowScales(flow_.laws(), reference_pressure(flow_, *initial_)), linear, initial_),
         balance_(flow_),
@@ -97,9 +99,14 @@ class TwoPhaseEvolution final : public Evolution {
     bound_begun_ = false;
   }
   complementarity::Problem& problem() override { return problem_; }
+  bool predict(Vector& X) override {
+    if (before_last_.is_null()) return false;
+    Tpetra::deep_copy(X, *predicted(flow_, *before_, *before_last_, problem_.step().length / last_length_));
+    return true;
+  }
 
   complementarity::Estimate estimate(const Vector& X) override {
-    if (!bound_) bound_ = std::make_unique<TwoPhaseBound>(flow_, problem_.scales(), TwoPhaseBoundParams{});
+    if (!bound_) bound_ = std::make_unique<TwoPhaseBound>(flow_, problem_.scales(), bound_params_);
     if (!bound_begun_) bound_->begin(problem_.step(), *before_);
     bound_begun_ = true;
     of_step_ = (*bound_)(X, problem_.linearization());
@@ -122,8 +129,14 @@ class TwoPhaseEvolution final : public Evolution {
   void accept(const Vector& X) override {
     balance_.add(problem_.step(), X);
     bound_so_far_.add(of_step_);
+    before_last_ = before_;
+    last_length_ = problem_.step().length;
   }
   std::optional<complementarity::Estimate> estimate_so_far() const override { return bound_so_far_.value(); }
+  std::string bound_name() const override {
+    return bound_params_.measure == complementarity::Measure::residual ? "dual norm of the residuals at most"
+                                                                       : "estimate of the literature";
+  }
   std::vector<Balance> balances() const override { return balance_.balances(); }
 
   complementarity::KktData kkt_data(const Vector& X) const override;
@@ -165,49 +178,64 @@ class TwoPhaseEvolution final : public Evolution {
   EvolutionState save(const Vector& X) const override {
     EvolutionState state{{}, balance_.save()};
     bound_so_far_.save(state.attributes);
-    const auto x = algebra::host_view(X);
-    for (int u = 0; u < unknowns_per_cell; ++u) {
-      output::CheckpointBlock block{names_of_unknowns()[u], owned_ids(), {}};
-      for (LocalIndex K = 0; K < flow_.grid().owned_cells; ++K) block.values.push_back(x(unknowns_per_cell * K + u));
-      state.blocks.push_back(std::move(block));
-    }
+    state.attributes["last_length"] = last_length_;
+    add_blocks("", X, state.blocks);
+    if (!before_last_.is_null()) add_blocks(of_before, *before_last_, state.blocks);
     return state;
   }
 
   Teuchos::RCP<Vector> restore(const output::StoredCheckpoint& stored) override {
-    const auto X = Teuchos::rcp(new Vector(flow_.map()));
-    const auto x = algebra::host_overwrite(*X);
-    for (int u = 0; u < unknowns_per_cell; ++u) {
-      const std::string& name = names_of_unknowns()[u];
+    for (const std::string& name : names_of_unknowns())
       if (stored.size(name) != cells())
-        throw core::InputError(fmt::format("The checkpoint '{}' belongs to another model or mesh: it holds {}, the deck asks for {} cells; "
-                                           "leave scene and mesh as they were.",
-                                           stored.path(),
-                                           stored.size(name) < 0 ? fmt::format("no '{}'", name)
-                                                                 : fmt::format("{} values of '{}'", stored.size(name), name),
-                                           cells()));
-      const auto values = stored.fetch(name, owned_ids());
-      for (LocalIndex K = 0; K < flow_.grid().owned_cells; ++K) x(unknowns_per_cell * K + u) = values[K];
-    }
+        throw core::InputError(fmt::format(
+            "The checkpoint '{}' belongs to another model or mesh: it holds {}, the deck asks for {} cells; "
+            "leave scene and mesh as they were.",
+            stored.path(), stored.size(name) < 0 ? fmt::format("no '{}'", name) : fmt::format("{} values of '{}'", stored.size(name), name),
+            cells()));
     balance_.restore(stored);
     bound_so_far_.restore(stored);
-    return X;
+    last_length_ = stored.attribute("last_length");
+    if (last_length_ > 0) before_last_ = fetched(of_before, stored);
+    return fetched("", stored);
   }
 
  private:
+  static constexpr const char* of_before = " before";
+
+  void add_blocks(const std::string& suffix, const Vector& X, std::vector<output::CheckpointBlock>& blocks) const {
+    const auto x = algebra::host_view(X);
+    for (int u = 0; u < unknowns_per_cell; ++u) {
+      output::CheckpointBlock block{names_of_unknowns()[u] + suffix, owned_ids(), {}};
+      for (LocalIndex K = 0; K < flow_.grid().owned_cells; ++K) block.values.push_back(x(unknowns_per_cell * K + u));
+      blocks.push_back(std::move(block));
+    }
+  }
+  Teuchos::RCP<Vector> fetched(const std::string& suffix, const output::StoredCheckpoint& stored) const {
+    const auto X = Teuchos::rcp(new Vector(flow_.map()));
+    const auto x = algebra::host_overwrite(*X);
+    for (int u = 0; u < unknowns_per_cell; ++u) {
+      const auto values = stored.fetch(names_of_unknowns()[u] + suffix, owned_ids());
+      for (LocalIndex K = 0; K < flow_.grid().owned_cells; ++K) x(unknowns_per_cell * K + u) = values[K];
+    }
+    return X;
+  }
+
   std::vector<GlobalIndex> owned_ids() const {
     const auto& ids = flow_.grid().cell_id;
     return {ids.begin(), ids.begin() + flow_.grid().owned_cells};
   }
 
+  TwoPhaseBoundParams bound_params_;
   TwoPhaseOperator flow_;
   Teuchos::RCP<Vector> initial_;
   TwoPhaseProblem problem_;
   TwoPhaseBalance balance_;
   TwoPhaseProbes probes_;
-  Teuchos::RCP<const Vector> before_;  ///< X^{n-1} of the step begun
+  Teuchos::RCP<const Vector> before_;       ///< X^{n-1} of the step begun
+  Teuchos::RCP<const Vector> before_last_;  ///< at the beginning of the last step accepted, whose length is last_length_ [s]; null: none
+  double last_length_ = 0;
   std::unique_ptr<TwoPhaseBound> bound_;
-  bool bound_begun_ = false;                           ///< it knows of the step begun
+  bool bound_begun_ = false;                          ///< it knows of the step begun
   std::optional<complementarity::Estimate> of_step_;  ///< its last estimate in this step
   BoundSoFar bound_so_far_;
 };
@@ -263,8 +291,9 @@ std::vector<output::FieldData> TwoPhaseEvolution::fields(const Vector& X, const 
 
 class TwoPhaseModel final : public UnsteadyModel {
  public:
-  TwoPhaseModel(scene::TwoPhaseScene scene, algebra::LinearParams linear, double seconds_per_unit, std::vector<double> probes)
-      : scene_(std::move(scene)), linear_(linear), seconds_per_unit_(seconds_per_unit), probes_(std::move(probes)) {}
+  TwoPhaseModel(scene::TwoPhaseScene scene, algebra::LinearParams linear, double seconds_per_unit, std::vector<double> probes,
+                const TwoPhaseBoundParams& bound)
+      : scene_(std::move(scene)), linear_(linear), seconds_per_unit_(seconds_per_unit), probes_(std::move(probes)), bound_(bound) {}
 
   std::string name() const override { return "two-phase"; }
   std::string case_name() const override { return scene_.name == "flow" ? "" : scene_.name; }
@@ -273,8 +302,9 @@ class TwoPhaseModel final : public UnsteadyModel {
                                     const std::vector<std::string>& field_names) const override {
     for (const auto& name : field_names)
       if (std::find(names_of_fields().begin(), names_of_fields().end(), name) == names_of_fields().end())
-        throw core::InputError(fmt::format("output/fields: there is no field '{}'; write all, none, or some of {}.", name, core::join(names_of_fields())));
-    return std::make_unique<TwoPhaseEvolution>(fv::build(mesh, comm, folder), scene_, linear_, seconds_per_unit_, probes_);
+        throw core::InputError(
+            fmt::format("output/fields: there is no field '{}'; write all, none, or some of {}.", name, core::join(names_of_fields())));
+    return std::make_unique<TwoPhaseEvolution>(fv::build(mesh, comm, folder), scene_, linear_, seconds_per_unit_, probes_, bound_);
   }
 
  private:
@@ -282,13 +312,14 @@ class TwoPhaseModel final : public UnsteadyModel {
   algebra::LinearParams linear_;
   double seconds_per_unit_;
   std::vector<double> probes_;
+  TwoPhaseBoundParams bound_;
 };
 
 }  // namespace
 
 std::unique_ptr<UnsteadyModel> two_phase(scene::TwoPhaseScene scene, algebra::LinearParams linear, double seconds_per_unit,
-                                         std::vector<double> probes) {
-  return std::make_unique<TwoPhaseModel>(std::move(scene), linear, seconds_per_unit, std::move(probes));
+                                         std::vector<double> probes, const TwoPhaseBoundParams& bound) {
+  return std::make_unique<TwoPhaseModel>(std::move(scene), linear, seconds_per_unit, std::move(probes), bound);
 }
 
 }  // namespace thixis::models

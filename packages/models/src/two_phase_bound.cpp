@@ -58,7 +58,7 @@ struct TwoPhaseBound::Impl {
   bool before_known = false;
   fv::View<PhaseState*> states_before;
   fv::View<fv::Quadratic**> p;
-  fv::View<double* [most_faces][components]> broken, broken_before;
+  fv::View<double*[most_faces][components]> broken, broken_before;
   fv::View<double**> given, distances, residuals, sigma, rest;
   fv::View<double* [components]> missed;
   fv::View<double* [parts]> errors;
@@ -125,9 +125,9 @@ struct TwoPhaseBound::Impl {
   Residual residual(const Balanced& of) const { return {fv::RaviartThomas(grid()), of, step.before, step.source, step.length}; }
 
   void broken_fluxes(const fv::View<PhaseState*>& states, const fv::View<double* [most_faces][components]>& out) const {
-    Kokkos::parallel_for("thixis::models::broken_fluxes", Range(0, grid().owned_cells),
-                         BrokenFluxes{fv::RaviartThomas(grid()), flow.laws(), grid().face_distance, flow.face_kind(), states, step.outside,
-                                      p, out});
+    Kokkos::parallel_for(
+        "thixis::models::broken_fluxes", Range(0, grid().owned_cells),
+        BrokenFluxes{fv::RaviartThomas(grid()), flow.laws(), grid().face_distance, flow.face_kind(), states, step.outside, p, out});
   }
 
   /// What of the step does not depend on the iterate.

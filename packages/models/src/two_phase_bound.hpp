@@ -2,16 +2,10 @@
 #include <memory>
 
 #include "thixis/complementarity/estimate.hpp"
-#include "thixis/complementarity/parameters.hpp"
-#include "thixis/models/evolution.hpp"
+#include "thixis/models/two_phase.hpp"
 #include "two_phase_problem.hpp"
 
 namespace thixis::models {
-
-struct TwoPhaseBoundParams {
-  complementarity::Measure measure = complementarity::Measure::residual;
-  double time_scale = 2500 * 31557600.;  ///< alpha [s]
-};
 
 /// The estimate of a step of backward Euler at any iterate (docs/methods/two_phase_estimates.md), split into the parts that a finer grid
 /// and shorter steps, further Newton steps, and further Krylov iterations would take away.

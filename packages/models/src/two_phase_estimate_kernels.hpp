@@ -39,7 +39,7 @@ struct Settle {
 
 /// Masses and face fluxes, of a state or linearized at another one.
 struct Balanced {
-  fv::View<double* [components]> masses, fluxes;
+  fv::View<double*[components]> masses, fluxes;
 };
 
 /// l_c and Phi_c at U.
@@ -100,7 +100,7 @@ struct LinearizedFluxes {
 struct Residual {
   fv::RaviartThomas cells;
   Balanced balanced;
-  fv::View<double* [components]> before, source;
+  fv::View<double*[components]> before, source;
   double length;
 
   KOKKOS_FUNCTION double operator()(LocalIndex K, int c) const {
@@ -117,7 +117,7 @@ struct BrokenFluxes {
   fv::View<double*> distance;
   fv::View<scene::FlowBoundaryKind*> kind;
   fv::View<PhaseState*> states, outside;
-  fv::View<fv::Quadratic**> p;                       ///< out, overwritten: potentials of owned cells
+  fv::View<fv::Quadratic**> p;                        ///< out, overwritten: potentials of owned cells
   fv::View<double* [most_faces][components]> fluxes;  ///< out, overwritten: outward, of owned cells
 
   KOKKOS_FUNCTION double gravity(LocalIndex K, int f) const {
@@ -146,10 +146,8 @@ struct BrokenFluxes {
     double rest = 0;
     int unknown = 0;
     for (int e = 0; e < cells.count(K); ++e) {
-      if (given_flux(K, e))
-        ++unknown;
-      else
-        rest += cells.area(cells.face(K, e)) * g[e];
+      if (given_flux(K, e)) ++unknown;
+      else rest += cells.area(cells.face(K, e)) * g[e];
     }
     return -rest / (unknown * cells.area(cells.face(K, f)));
   }
@@ -198,11 +196,11 @@ struct CellErrors {
   fv::View<double*> diameter;
   fv::View<PhaseState*> states, states_before;
   fv::View<double* [components]> face_fluxes;  ///< of the scheme, at `states`
-  fv::View<double* [most_faces][components]> fluxes, fluxes_before;
-  fv::View<double**> distances;         ///< |grad (p_j - average)|²
-  fv::View<double**> sigma, rest;       ///< columns: linearization w, h, algebraic w, h
+  fv::View<double*[most_faces][components]> fluxes, fluxes_before;
+  fv::View<double**> distances;                  ///< |grad (p_j - average)|²
+  fv::View<double**> sigma, rest;                ///< columns: linearization w, h, algebraic w, h
   fv::View<double* [components]> masses_missed;  ///< l_c(U) - l_c(V) - l_c'(V) (U - V); not read where lifted
-  fv::View<double* [parts]> out;        ///< overwritten
+  fv::View<double* [parts]> out;                 ///< overwritten
 
   KOKKOS_FUNCTION double lift(LocalIndex K, int column, int c) const {
     double g[most_faces];
@@ -218,7 +216,8 @@ struct CellErrors {
     const double diffusion = laws.porosity * laws.beta_l * laws.diffusion * Kokkos::Experimental::fabs(1 - U.s_g) * n[of_dissolved];
     if (c == water) return (laws.rho_w * liquid * n[of_liquid] + diffusion) / mass[c];
     return (laws.beta_l * Kokkos::Experimental::fabs(U.chi) * liquid * n[of_liquid] +
-            laws.beta_g * Kokkos::Experimental::fabs(U.P_g.value) * gas * n[of_gas] + diffusion) / mass[c];
+            laws.beta_g * Kokkos::Experimental::fabs(U.P_g.value) * gas * n[of_gas] + diffusion) /
+           mass[c];
   }
 
   /// ∫ a^+ b^+ over the step by the part of the affine functions at its ends, per length of the step.
@@ -238,7 +237,8 @@ struct CellErrors {
       const double here = Kokkos::Experimental::sqrt(cells.square(K, off)) / mass[c] + nonconformity(K, c);
       double lin = lift(K, c, c);
       if (!lifted)
-        lin += diameter(K) / length * Kokkos::Experimental::sqrt(cells.volume(K)) * Kokkos::Experimental::fabs(masses_missed(K, c)) / mass[c];
+        lin +=
+            diameter(K) / length * Kokkos::Experimental::sqrt(cells.volume(K)) * Kokkos::Experimental::fabs(masses_missed(K, c)) / mass[c];
       const double alg = lift(K, components + c, c);
       out(K, space) += here * here;
       out(K, in_time) += cells.square(K, step) / (3 * mass[c] * mass[c]);

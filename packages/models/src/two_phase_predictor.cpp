@@ -4,7 +4,8 @@
 
 namespace thixis::models {
 
-Teuchos::RCP<algebra::Vector> predicted(const TwoPhaseOperator& flow, const algebra::Vector& X, const algebra::Vector& X_before, double ratio) {
+Teuchos::RCP<algebra::Vector> predicted(const TwoPhaseOperator& flow, const algebra::Vector& X, const algebra::Vector& X_before,
+                                        double ratio) {
   using Range = Kokkos::RangePolicy<algebra::Vector::execution_space>;
   const auto out = Teuchos::rcp(new algebra::Vector(X, Teuchos::Copy));
   out->update(-ratio, X_before, 1 + ratio);

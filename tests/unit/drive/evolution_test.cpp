@@ -17,6 +17,7 @@ using algebra::Vector;
 RunParams half_a_unit(double step) {
   RunParams params;
   params.scene.data.emplace();
+  params.output.directory = "results";
   params.time = TimeParams{};
   params.time->step = step;
   params.time->end = 0.5;
@@ -70,7 +71,7 @@ TEST(Steps, that_fail_are_cut_and_grow_again) {
   EXPECT_EQ(static_cast<int>(reasons.size()), outcome.at.retries);
   EXPECT_GE(outcome.at.retries, 2);
   EXPECT_LE(longest, 0.03);
-  EXPECT_NE(reasons.front().find("the step is too long"), std::string::npos) << reasons.front();
+  EXPECT_NE(reasons.front().find("not finite"), std::string::npos) << reasons.front();
 }
 
 TEST(Steps, that_would_be_too_short_end_the_run) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <iomanip>
 #include <iostream>
 
@@ -9,6 +10,7 @@
 #include "thixis/complementarity/newton.hpp"
 #include "thixis/fem/lagrange_space.hpp"
 #include "thixis/hho/space.hpp"
+#include "thixis/output/checkpoint.hpp"
 
 namespace thixis::verification {
 namespace {
@@ -36,8 +38,7 @@ void disturb(algebra::Vector& X, double size) {
     values(i) += size * std::sin(12.9898 * static_cast<double>(ids->getGlobalElement(static_cast<LocalIndex>(i)) % 1009));
 }
 
-Bounded bounded(drive::RunParams params, int steps, double end, Ending ending) {
-  const core::Comm comm;
+Bounded bounded(drive::RunParams params, int steps, double end, Ending ending, const core::Comm& comm = core::Comm()) {
   if (ending == Ending::smooth_c_function) params.newton.c_function = complementarity::CFunction::fischer_burmeister;
   if (ending == Ending::two_systems) params.newton.max_iterations = 2;
   const auto make = params.method.name == MethodName::hho ? hho::make_space : fem::make_lagrange_space;
@@ -106,6 +107,69 @@ TEST(GuaranteeInTime, is_above_the_error_of_iterates) {
         EXPECT_GE(b.worst, 1) << what;
         EXPECT_TRUE(b.split) << what;
       }
+}
+
+TEST(GuaranteeInTime, has_parts_of_the_orders_of_the_method) {
+  const auto rate = [](double coarse, double fine) { return std::log2(coarse / fine); };
+  const auto in_time = [](int steps) {
+    return bounded(on_squares("smooth moving contact", 4, MethodName::fem, 3), steps, 1, Ending::solved).sums.time;
+  };
+  EXPECT_NEAR(rate(in_time(8), in_time(16)), 1, 0.15);
+  for (const auto method : {MethodName::fem, MethodName::hho})
+    for (int degree = 1; degree <= 3; ++degree) {
+      const auto in_space = [&](int n) {
+        return bounded(on_squares("resting contact", n, method, degree), 2, 1, Ending::solved).sums.space;
+      };
+      EXPECT_GE(rate(in_space(8), in_space(16)), degree - 0.35) << name_of(method, degree);
+    }
+}
+
+TEST(GuaranteeOnRanks, is_the_same_on_any_number_of_them) {
+  for (const auto method : {MethodName::fem, MethodName::hho})
+    for (const int degree : {1, 2}) {
+      auto params = on_squares("moving contact", 4, method, degree);
+      params.mesh.cells_per_rank = 8;
+      const auto together = bounded(params, 2, 0.5, Ending::two_systems),
+                 alone = bounded(params, 2, 0.5, Ending::two_systems, core::Comm(MPI_COMM_SELF));
+      EXPECT_NEAR(together.so_far.total, alone.so_far.total, 1e-8 * alone.so_far.total) << name_of(method, degree);
+      EXPECT_NEAR(together.so_far.linearization, alone.so_far.linearization, 1e-7 * alone.so_far.discretization) << name_of(method, degree);
+      EXPECT_NEAR(together.sums.space, alone.sums.space, 1e-8 * alone.sums.space) << name_of(method, degree);
+    }
+}
+
+/// Bit for bit.
+TEST(GuaranteeOnRanks, goes_on_from_a_checkpoint) {
+  const core::Comm comm;
+  for (const auto method : {MethodName::fem, MethodName::hho}) {
+    auto params = on_squares("moving contact", 4, method, 2);
+    params.mesh.cells_per_rank = 8;
+    const auto make = method == MethodName::hho ? hho::make_space : fem::make_lagrange_space;
+    const auto model = models::parabolic_membranes(scene::membrane_scene(params.scene), make, params.method, params.linear);
+    const auto step = [&](models::Evolution& evolution, int n, Teuchos::RCP<algebra::Vector>& X) {
+      const algebra::Vector before(*X, Teuchos::Copy);
+      evolution.begin({0.1 * (n - 1), 0.1 * n}, before);
+      complementarity::newton(evolution.problem(), *X, params.newton, params.stopping, 10, {}, {});
+      const Estimate eta = evolution.estimate(*X);
+      evolution.accept(*X);
+      return eta;
+    };
+    const auto evolution = model->evolve(params.mesh, comm, "", {});
+    auto X = evolution->initial();
+    for (int n = 1; n <= 2; ++n) step(*evolution, n, X);
+    const auto state = evolution->save(*X);
+    const std::string path =
+        (std::filesystem::temp_directory_path() / ("bound_checkpoint_" + std::to_string(comm.size()) + ".h5")).string();
+    output::write_checkpoint(path, {"", "/", 0, state.attributes, state.blocks}, comm);
+    const auto again = model->evolve(params.mesh, comm, "", {});
+    auto Y = again->restore(output::read_checkpoint(path, comm));
+    for (int n = 3; n <= 4; ++n) {
+      const Estimate eta = step(*evolution, n, X), same = step(*again, n, Y);
+      EXPECT_EQ(eta.total, same.total);
+      EXPECT_EQ(eta.discretization, same.discretization);
+      EXPECT_EQ(evolution->estimate_so_far()->total, again->estimate_so_far()->total);
+      EXPECT_EQ(evolution->estimate_so_far()->discretization, again->estimate_so_far()->discretization);
+    }
+  }
 }
 
 }  // namespace thixis::verification

@@ -62,7 +62,8 @@ struct EvolutionOutcome {
 
 /// Backward Euler from time 0, or from a checkpoint, to time/end (TimeParams):
 ///
-///     begin the step; semismooth Newton from the state before; where it fails, the step is cut in half and begun again; accept.
+///     begin the step; semismooth Newton from a prediction, if the model has one, and from the state before; where it fails, the step is
+///     cut in half and begun again; accept.
 ///
 /// The run ends without success where a step would have to be shorter than time/smallest. With time/adaptive a step whose error in time is
 /// too large is begun again, shorter; with a target (stopping/target bounds the error over all time) one whose share is too large,

@@ -38,7 +38,7 @@ double seconds_in(TimeUnit unit);
 /// Block `time` of the deck: backward Euler from 0 to the end. All times are in its unit, also t in expressions and rates of data.
 struct TimeParams {
   TimeUnit unit = TimeUnit::none;
-  double step = 1;  ///< length of the steps; of the first one where they are controlled
+  double step = 0.01;  ///< length of the steps; of the first one where they are controlled
   double end = 1;
   bool adaptive = false;           ///< the time part of the estimate controls the steps
   std::vector<double> also;        ///< further times at which a step ends

@@ -62,6 +62,8 @@ class Evolution {
   virtual void begin(const TimeStep& step, const algebra::Vector& before) = 0;
   /// Of the step begun.
   virtual complementarity::Problem& problem() = 0;
+  /// A better start for Newton's method than X^{n-1}, from the steps before; false: there is none, X is left as it was.
+  virtual bool predict(algebra::Vector&) { return false; }
 
   /// The share of the step begun in the bound on the error over all time, at any X of the step: sqrt of an integral over the step. What it
   /// needs of the mesh is set up at the first call; a run that never asks pays nothing. Throws InputError where the scene has no bound.

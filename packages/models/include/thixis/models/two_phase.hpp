@@ -2,16 +2,23 @@
 #include <memory>
 
 #include "thixis/algebra/solver.hpp"
+#include "thixis/complementarity/parameters.hpp"
 #include "thixis/models/evolution.hpp"
 #include "thixis/scene/two_phase.hpp"
 
 namespace thixis::models {
+
+/// What the estimate of two-phase flow measures (docs/methods/two_phase_estimates.md).
+struct TwoPhaseBoundParams {
+  complementarity::Measure measure = complementarity::Measure::residual;
+  double time_scale = 2500 * 31557600.;  ///< alpha [s]
+};
 
 /// Two-phase flow of water and hydrogen by cell-centred finite volumes and backward Euler (docs/methods/two_phase.md).
 ///
 /// `seconds_per_unit`: of the unit of time of the deck. `probes`: points of series.csv, x and y of each (intervals: x); empty: the cell
 /// at the left end, the lowest one there.
 std::unique_ptr<UnsteadyModel> two_phase(scene::TwoPhaseScene scene, algebra::LinearParams linear, double seconds_per_unit,
-                                         std::vector<double> probes);
+                                         std::vector<double> probes, const TwoPhaseBoundParams& bound);
 
 }  // namespace thixis::models
