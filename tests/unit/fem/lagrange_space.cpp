@@ -145,6 +145,22 @@ Vector solved(const Space& V, const scene::Field& tension, Vector rhs) {
 
 }  // namespace
 
+TEST_P(Lagrange, has_the_mass_of_its_functions_in_the_cells) {
+  const auto affine = scene::formula([](double x, double y) { return 1 + x - 2 * y; });
+  const auto free = space(mesh, false);
+  Vector values(free->map()), moments(free->map()), expected(free->map()), product(free->map());
+  free->interpolate(*affine, 0, values);
+  const auto w = free->complete(values, method::Coefficients("nothing", free->lift(everywhere(mesh, scene::constant(0)), 0).extent(0)));
+  free->apply_mass(w, moments);
+  free->load(*scene::constant(1), *affine, everywhere(mesh, nullptr, scene::constant(0)), 0, expected);
+  EXPECT_GT(expected.normInf(), 1e-3);
+  EXPECT_LE(distance(moments, expected), 1e-12);
+  free->mass()->apply(values, product);
+  EXPECT_LE(distance(moments, product), 1e-12);
+  EXPECT_NEAR(free->l2_error(w, *affine, 0), 0, 1e-20);
+  EXPECT_NEAR(free->l2_error(w, *scene::formula([](double x, double y) { return 4 + x - 2 * y; }), 0), 9 * area(mesh), 1e-9);
+}
+
 TEST_P(Lagrange, stiffness_is_symmetric_and_its_rows_sum_to_zero_where_nothing_is_held) {
   const auto V = space(mesh, false);
   const auto S = V->stiffness(*scene::formula([](double x, double y) { return 2 + x * x + y; }));

@@ -18,17 +18,18 @@ MembraneScene catalogued(const std::string& name) {
   return membrane_scene(params);
 }
 
-std::vector<Case> cases_of_membranes() {
-  std::vector<Case> membranes;
+/// The cases without time.
+std::vector<Case> still_cases() {
+  std::vector<Case> still;
   for (const Case& c : cases())
-    if (c.model != Model::two_phase) membranes.push_back(c);
-  return membranes;
+    if (c.model == Model::membranes || c.model == Model::obstacle) still.push_back(c);
+  return still;
 }
 
-/// The scenes whose solution is known.
+/// Their scenes whose solution is known.
 std::vector<MembraneScene> solved_scenes() {
   std::vector<MembraneScene> scenes;
-  for (const Case& c : cases_of_membranes())
+  for (const Case& c : still_cases())
     if (MembraneScene scene = catalogued(c.name); scene.exact) scenes.push_back(scene);
   return scenes;
 }
@@ -179,7 +180,7 @@ TEST(Case, starts_the_disks_from_flat_membranes) {
 }
 
 TEST(Case, has_unit_tensions_that_kernels_may_take_as_constant) {
-  for (const Case& c : cases_of_membranes()) {
+  for (const Case& c : still_cases()) {
     const MembraneScene scene = catalogued(c.name);
     for (int alpha = 0; alpha < scene.count; ++alpha) EXPECT_EQ(*scene.tension[alpha]->constant(), 1);
     EXPECT_EQ(scene.name, c.name);
@@ -188,7 +189,7 @@ TEST(Case, has_unit_tensions_that_kernels_may_take_as_constant) {
 }
 
 TEST(Case, over_an_obstacle_has_one_membrane_and_leaves_the_other_null) {
-  for (const Case& c : cases_of_membranes()) {
+  for (const Case& c : still_cases()) {
     const MembraneScene scene = catalogued(c.name);
     const bool one = c.model == Model::obstacle;
     EXPECT_EQ(scene.count, one ? 1 : 2) << c.name;

@@ -191,7 +191,7 @@ TEST(MembraneScene, refuses_what_can_not_be_meant) {
   params = by_height("1", "0");
   params.model = Model::signorini;
   EXPECT_EQ(message_of([&] { membrane_scene(params); }),
-            "scene/model: only stationary membranes are described by this scene; write 'membranes' or 'obstacle'.");
+            "scene/model: this scene is about membranes; write 'membranes', 'obstacle' or 'parabolic membranes'.");
 }
 
 TEST(MembraneScene, over_an_obstacle_refuses_what_can_not_be_meant) {
