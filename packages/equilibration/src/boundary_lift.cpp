@@ -240,6 +240,7 @@ void BoundaryLift::find_faces(const ContinuousNodes& nodes, const std::array<sce
       for (const double d : difference) most = std::max(most, std::abs(d));
       cell.difference += most;
     }
+  largest_ = largest;
   empty_ = largest <= 1e-13 * size;
   if (empty_) return;
   for (const auto& [cell, energy] : left) remainder_.push_back({cell, energy});

@@ -30,7 +30,8 @@ class BoundaryLift {
   bool empty() const { return empty_; }
   const View<const LocalIndex*>& cells() const { return owned_; }  ///< owned cells of the layer
   const LiftOfCells& of_cells() const { return of_cells_; }
-  double energy() const { return energy_; }  ///< |||L||| over all cells of all ranks
+  double energy() const { return energy_; }    ///< |||L||| over all cells of all ranks
+  double largest() const { return largest_; }  ///< of |g - g_h| seen on this rank
 
   /// What q leaves of delta, rho = delta - s (1 - s) q, on owned cells: |||E|||_K of its extension E = (1 - r) rho(s), r = 0 on the face
   /// and 1 at the opposite vertex, over all faces of the cell,
@@ -85,7 +86,7 @@ class BoundaryLift {
   std::vector<LiftInCell> lift_[2];        ///< in the layer cells; v is known in the owned ones
   std::vector<double> difference_;         ///< in the layer cells: OnBoundary::difference
   LiftOfCells of_cells_;
-  double energy_ = 0;
+  double energy_ = 0, largest_ = 0;
 };
 
 }  // namespace thixis::equilibration

@@ -376,6 +376,20 @@ void FeasiblePair::contact(const Continuous& s_c, const ConstCellTable& lambda, 
       KOKKOS_LAMBDA(int K) { contact(K) = kernel.contact_alone(K); });
 }
 
+double FeasiblePair::change_by_interpolation() const {
+  const mesh::Mesh& mesh = impl_->space.mesh();
+  const auto held = method::held_vertices(mesh, held_tags(impl_->problem.boundary[0]));
+  const auto host = mesh::on_host(mesh);
+  double area = 0;
+  for (LocalIndex K = 0; K < mesh.owned_cells; ++K)
+    for (int i = 0; i < 3; ++i)
+      if (held[host.cell_vertices(K, i)] >= 0) {
+        area += mesh::cell_area(host.coordinates, host.cell_vertices, K);
+        break;
+      }
+  return 2 * mesh.comm.max(impl_->lift->largest()) * std::sqrt(impl_->problem.count * mesh.comm.sum(area));
+}
+
 std::array<double, 2> FeasiblePair::apart() const { return {impl_->kernel.apart[0], impl_->kernel.apart[1]}; }
 
 View<double* [2]> FeasiblePair::change_of_lift(const FeasiblePair* before) const {
@@ -383,7 +397,7 @@ View<double* [2]> FeasiblePair::change_of_lift(const FeasiblePair* before) const
 }
 
 void FeasiblePair::change_of_move(const CellTable& gap, const View<double* [2]>& change_of_lift, const FeasiblePair* before,
-                                 const CellTable& gap_before, const View<double*>& size) const {
+                                  const CellTable& gap_before, const View<double*>& size) const {
   const FeasibleParts now = impl_->kernel, then = before ? before->impl_->kernel : impl_->kernel;
   NegativePartInTime of{now, then, before != nullptr, gap, gap_before, change_of_lift, size};
   Kokkos::parallel_for("thixis::equilibration::negative_part_in_time", Kokkos::RangePolicy<>(0, size.extent(0)), of);

@@ -110,7 +110,7 @@ struct StepBound::Impl : BoundParts {
 
   // since the start
   Square all;
-  double initial = 0, disc2 = 0, lin2 = 0, alg2 = 0;
+  double disc2 = 0, lin2 = 0, alg2 = 0;
 
   Impl(const method::PolynomialSpace& of, const ContactProblem& contact, const mesh::Hierarchy& hierarchy, int level,
        std::optional<double> constant)
@@ -174,6 +174,8 @@ struct StepBound::Impl : BoundParts {
   void equilibrate(int alpha, const Vector& cut_off);
   double oscillation_of_rate(int alpha, LocalIndex K) const;
   void sum_up();
+  /// |u_alpha - s_alpha|: |u_h - s_N| + |L| + |what is moved apart|.
+  std::array<double, 2> distance(double time, const Coefficients (&u)[2]);
 };
 
 /// sigma_disc + sigma_lin + sigma_alg in equilibrium with f(t_n) - ∂_t s_N and lambda^, and |mu^{1/2} grad (u_h^n - u_h^{n-1})|_K.
@@ -329,37 +331,56 @@ void StepBound::Impl::sum_up() {
                          std::sqrt(length * std::abs(sum[contact] - sum[contact_nodes]));
 }
 
+std::array<double, 2> StepBound::Impl::distance(double time, const Coefficients (&u)[2]) {
+  feasible = pair_at(time);
+  const auto to_nodes = feasible->way(u, feasible->continuous(u));
+  const auto lifted = feasible->change_of_lift(nullptr);
+  const auto apart = feasible->apart();
+  feasible->change_of_move(to_nodes.gap, {}, nullptr, {}, move_change);
+  std::array<double, 2> norm = {0, 0};
+  for (int alpha = 0; alpha < problem.count; ++alpha) {
+    double way2 = 0, rest2 = 0;
+    for (LocalIndex K = 0; K < owned; ++K) {
+      for (int m = 0; m < functions; ++m) {
+        double value = 0;
+        if (to_nodes.averages[alpha].extent(0) > 0) value += to_nodes.averages[alpha](K, m);
+        if (to_nodes.closing[alpha].extent(0) > 0) value += to_nodes.closing[alpha](K, m);
+        way2 += metric(K).det * value * value;
+      }
+      rest2 += squared(apart[alpha] * move_change(K) + (lifted.extent(0) > 0 ? lifted(K, alpha) : 0));
+    }
+    norm[alpha] = std::sqrt(comm.sum(way2)) + std::sqrt(comm.sum(rest2));
+  }
+  return norm;
+}
+
 StepBound::StepBound(const method::PolynomialSpace& space, const ContactProblem& problem, const mesh::Hierarchy& hierarchy, int level,
                      std::optional<double> friedrichs)
     : impl_(std::make_unique<Impl>(space, problem, hierarchy, level, friedrichs)) {}
 StepBound::~StepBound() = default;
 
-/// |u_0 - s| <= |u_0 - u_h| + |u_h - s_N| + |L| + |what is moved apart|.
+/// |u_0 - s| <= |u_0 - u_h| + |u_h - s|.
 void StepBound::start(double time, const Coefficients (&u)[2], const std::array<scene::FieldPtr, 2>& initial) {
   Impl& in = *impl_;
-  in.feasible = in.pair_at(time);
-  const auto way = in.feasible->way(u, in.feasible->continuous(u));
-  const auto lift = in.feasible->change_of_lift(nullptr);
-  const auto apart = in.feasible->apart();
-  in.feasible->change_of_move(way.gap, {}, nullptr, {}, in.move_change);
-  in.initial = 0;
-  for (int alpha = 0; alpha < in.problem.count; ++alpha) {
-    double way2 = 0, rest2 = 0;
-    for (LocalIndex K = 0; K < in.owned; ++K) {
-      for (int m = 0; m < in.functions; ++m) {
-        double value = 0;
-        if (way.averages[alpha].extent(0) > 0) value += way.averages[alpha](K, m);
-        if (way.closing[alpha].extent(0) > 0) value += way.closing[alpha](K, m);
-        way2 += in.metric(K).det * value * value;
-      }
-      rest2 += squared(apart[alpha] * in.move_change(K) + (lift.extent(0) > 0 ? lift(K, alpha) : 0));
-    }
-    const double of_values = initial[alpha] ? std::sqrt(in.space.l2_error(u[alpha], *initial[alpha], time)) : 0;
-    in.initial += squared(of_values + std::sqrt(in.comm.sum(way2)) + std::sqrt(in.comm.sum(rest2)));
-  }
-  in.all = {in.initial, 0};
-  in.disc2 = in.initial;
+  const auto distance = in.distance(time, u);
+  double square = 0;
+  for (int alpha = 0; alpha < in.problem.count; ++alpha)
+    square += squared(distance[alpha] + (initial[alpha] ? std::sqrt(in.space.l2_error(u[alpha], *initial[alpha], time)) : 0));
+  in.all = {square, 0};
+  in.disc2 = square;
   in.lin2 = in.alg2 = 0;
+}
+
+/// y jumps by J at most: |y + J|² <= |y|² + 2 |y| J + J².
+void StepBound::take_over(const StepBound& coarse, double time, const Coefficients (&coarse_u)[2], const Coefficients (&u)[2]) {
+  Impl& in = *impl_;
+  Impl& from = *coarse.impl_;
+  const auto there = from.distance(time, coarse_u), here = in.distance(time, u);
+  const double jump = std::hypot(there[0], there[1]) + std::hypot(here[0], here[1]) + from.pair_at(time)->change_by_interpolation();
+  in.all = {from.all.energy + jump * jump, from.all.remainder + jump};
+  in.disc2 = from.disc2 + jump * jump;
+  in.lin2 = from.lin2;
+  in.alg2 = from.alg2;
 }
 
 void StepBound::begin(double begin, double end, const Coefficients (&before)[2]) {

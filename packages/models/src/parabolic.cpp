@@ -83,11 +83,7 @@ class ParabolicEvolution final : public Evolution {
 
   complementarity::Estimate estimate(const Vector& X) override {
     if (!bound_) {
-      const core::Region region("estimate set-up");
-      auto contact = on_mesh_->contact_problem();
-      contact.time = step_.end;
-      bound_ = std::make_unique<equilibration::StepBound>(on_mesh_->polynomials(), contact, hierarchy_,
-                                                          static_cast<int>(hierarchy_.levels.size()) - 1);
+      bound_ = make_bound(step_.end);
       if (!restored_bound_.empty()) bound_->restore(restored_bound_);
     }
     if (!estimated_) {
@@ -128,7 +124,7 @@ class ParabolicEvolution final : public Evolution {
     return std::sqrt(squared_error_);
   }
 
-  /// Nothing before the first step, after one that was not estimated, and on a mesh that has changed.
+  /// Nothing before the first step and after one that was not estimated.
   std::optional<complementarity::Estimate> estimate_so_far() const override {
     if (!bounded_ || !bound_) return std::nullopt;
     return bound_->so_far();
@@ -220,16 +216,23 @@ class ParabolicEvolution final : public Evolution {
     for (LocalIndex K = 0; K < coarse.owned_cells; ++K)
       if (ids.count(coarse.cell_id[K]) > 0) cells.push_back(K);
     on_mesh_->move_to(t);
+    const Pair coarse_u = at(X);
     mesh::adapt(hierarchy_, cells);
     const auto on_coarse = std::move(on_mesh_);
+    const auto coarse_bound = std::move(bound_);
     on_mesh_ = make_level();
     on_mesh_->move_to(t);
     areas_ = Teuchos::null;
     weight_ = 0;
-    begun_ = open_ = estimated_ = bounded_ = false;
-    bound_ = nullptr;
+    begun_ = open_ = estimated_ = false;
     restored_bound_.clear();
-    return on_mesh_->joined(on_mesh_->from_coarse(*on_coarse, X));
+    const auto fine_X = on_mesh_->joined(on_mesh_->from_coarse(*on_coarse, X));
+    bounded_ = bounded_ && coarse_bound;
+    if (bounded_) {
+      bound_ = make_bound(t);
+      bound_->take_over(*coarse_bound, t, coarse_u.u, at(*fine_X).u);
+    }
+    return fine_X;
   }
 
  private:
@@ -238,6 +241,14 @@ class ParabolicEvolution final : public Evolution {
   std::unique_ptr<MembraneLevel> make_level() const {
     const core::Region region("assembly");
     return std::make_unique<MembraneLevel>(scene_, make_space_, method_, linear_, hierarchy_.finest());
+  }
+
+  std::unique_ptr<equilibration::StepBound> make_bound(double time) const {
+    const core::Region region("estimate set-up");
+    auto contact = on_mesh_->contact_problem();
+    contact.time = time;
+    return std::make_unique<equilibration::StepBound>(on_mesh_->polynomials(), contact, hierarchy_,
+                                                      static_cast<int>(hierarchy_.levels.size()) - 1);
   }
 
   /// With the boundary values of the time of the data.

@@ -71,6 +71,10 @@ class FeasiblePair {
   /// contact(K) = (lambda, s_1 - s_2)_K alone, as `evaluate` has it; cells without a multiplier cost nothing.
   void contact(const Continuous& s_c, const ConstCellTable& lambda, int degree, const View<double*>& contact, double small = 0) const;
 
+  /// A bound on |v|, v of the space with the values of g - g_h at nodes of the held boundary, here or on a finer mesh, and 0 at others:
+  /// twice the largest |g - g_h| and the cells that touch the boundary. Collective.
+  double change_by_interpolation() const;
+
   /// Shares of the membranes in the pointwise move.
   std::array<double, 2> apart() const;
   /// |L_alpha - L_alpha of `before`|_K, of L_alpha itself where `before` is null; of length 0: zero. Collective.

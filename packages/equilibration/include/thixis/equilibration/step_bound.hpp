@@ -50,6 +50,9 @@ class StepBound {
 
   /// The last iterate ends the step: the bound so far takes it in.
   void accept();
+  /// Before the first step on a finer mesh, at the time of its begin: `coarse` is the bound on the mesh before. The function is the same on
+  /// both but for its boundary values; s jumps by no more than it is away from it. Collective.
+  void take_over(const StepBound& coarse, double time, const method::Coefficients (&coarse_u)[2], const method::Coefficients (&u)[2]);
   /// Over all steps accepted since `start`: total <= discretization + linearization + algebraic; the error at time 0 is part of
   /// discretization.
   complementarity::Estimate so_far() const;
