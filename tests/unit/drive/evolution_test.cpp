@@ -74,6 +74,19 @@ TEST(Steps, that_fail_are_cut_and_grow_again) {
   EXPECT_NE(reasons.front().find("not finite"), std::string::npos) << reasons.front();
 }
 
+TEST(Steps, begin_again_from_the_state_before_where_a_prediction_leads_nowhere) {
+  test::Falling scene;
+  EvolutionOutcome plain, misled;
+  const auto ends = times(scene, half_a_unit(0.1), &plain);
+  scene.misleading = true;
+  EXPECT_EQ(times(scene, half_a_unit(0.1), &misled), ends);
+  EXPECT_TRUE(misled.solved);
+  EXPECT_EQ(misled.at.retries, misled.at.step);
+  Vector difference(*misled.X, Teuchos::Copy);
+  difference.update(-1, *plain.X, 1);
+  EXPECT_EQ(difference.normInf(), 0);
+}
+
 TEST(Steps, that_would_be_too_short_end_the_run) {
   test::Falling scene;
   scene.longest_step = 0;

@@ -106,6 +106,10 @@ class Fall final : public models::Evolution {
     step_.begin(step, before);
   }
   complementarity::Problem& problem() override { return step_; }
+  bool predict(Vector& X) override {
+    if (params_.misleading) X.putScalar(std::numeric_limits<double>::quiet_NaN());
+    return params_.misleading;
+  }
   complementarity::Estimate estimate(const Vector&) override { return {1, 1, 0, 0, 0, 0}; }
   models::CellEstimates cell_estimates() const override { return {}; }
   std::optional<models::StepErrors> step_errors() const override { return models::StepErrors{params_.error_in_time * length_, 1}; }

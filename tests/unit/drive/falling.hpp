@@ -11,6 +11,7 @@ namespace thixis::drive::test {
 struct Falling {
   GlobalIndex points = 7;
   double longest_step = 1e300;  ///< longer steps are refused by the solver
+  bool misleading = false;      ///< predicts a start that is not finite
   double error_in_time = 0;     ///< of a step of unit length; that in space is 1: error_in_time · length
 };
 
