@@ -19,6 +19,6 @@ struct TwoPhaseBoundParams {
 /// `seconds_per_unit`: of the unit of time of the deck. `probes`: points of series.csv, x and y of each (intervals: x); empty: the cell
 /// at the left end, the lowest one there.
 std::unique_ptr<UnsteadyModel> two_phase(scene::TwoPhaseScene scene, algebra::LinearParams linear, double seconds_per_unit,
-                                         std::vector<double> probes, const TwoPhaseBoundParams& bound);
+                                         std::vector<double> probes, const TwoPhaseBoundParams& bound = {});
 
 }  // namespace thixis::models
