@@ -124,6 +124,40 @@ TEST(GuaranteeInTime, has_parts_of_the_orders_of_the_method) {
     }
 }
 
+/// The exact solution is known on all meshes: refined at a time between two steps.
+TEST(GuaranteeOnRanks, stays_above_the_error_when_the_mesh_is_refined) {
+  for (const auto method : {MethodName::fem, MethodName::hho})
+    for (const int degree : {1, 2}) {
+      auto params = on_squares("moving contact", 4, method, degree);
+      params.mesh.cells_per_rank = 8;
+      const auto make = method == MethodName::hho ? hho::make_space : fem::make_lagrange_space;
+      const auto model = models::parabolic_membranes(scene::membrane_scene(params.scene), make, params.method, params.linear);
+      const auto evolution = model->evolve(params.mesh, core::Comm(), "", {});
+      auto X = evolution->initial();
+      for (int n = 1; n <= 4; ++n) {
+        if (n == 3) {
+          const auto& mesh = evolution->hierarchy()->finest();
+          std::vector<GlobalIndex> marked;
+          for (LocalIndex K = 0; K < mesh.owned_cells; ++K)
+            if (mesh.cell_id[K] % 3 == 0) marked.push_back(mesh.cell_id[K]);
+          const auto before = evolution->estimate_so_far().value();
+          X = evolution->refine(marked, *X);
+          const auto after = evolution->estimate_so_far().value();
+          EXPECT_GE(after.total, before.total) << name_of(method, degree);
+          EXPECT_LE(after.total, 2 * before.total) << name_of(method, degree);  // the jump of s counts twice, and the mesh is coarse
+        }
+        const algebra::Vector before(*X, Teuchos::Copy);
+        evolution->begin({0.1 * (n - 1), 0.1 * n}, before);
+        EXPECT_TRUE(complementarity::newton(evolution->problem(), *X, params.newton, params.stopping, 10, {}, {}).converged);
+        evolution->estimate(*X);
+        evolution->accept(*X);
+        const auto so_far = evolution->estimate_so_far().value();
+        EXPECT_GE(so_far.total, evolution->energy_error().value()) << name_of(method, degree);
+        EXPECT_TRUE(holds(so_far)) << name_of(method, degree);
+      }
+    }
+}
+
 TEST(GuaranteeOnRanks, is_the_same_on_any_number_of_them) {
   for (const auto method : {MethodName::fem, MethodName::hho})
     for (const int degree : {1, 2}) {
