@@ -32,6 +32,10 @@ scene::TwoPhaseScene catalogued(const std::string& name) {
   return scene::two_phase_scene(params);
 }
 
+std::unique_ptr<UnsteadyModel> made(const scene::TwoPhaseScene& scene, const std::vector<double>& probes = {}) {
+  return two_phase(scene, algebra::LinearParams{}, year, probes, TwoPhaseBoundParams{});
+}
+
 mesh::MeshParams interval(int cells, double length) {
   mesh::MeshParams params;
   params.generator = mesh::Generator::interval;
@@ -205,7 +209,7 @@ TEST(TwoPhaseProblem, linearizes_its_equations_exactly) {
 
 /// All of it: the run of the independent program, through the evolution and the nonlinear solver.
 void expect_run_of_ten_cells(complementarity::CFunction function, const char* name) {
-  const auto model = two_phase(catalogued("gas injection"), algebra::LinearParams{}, year, {});
+  const auto model = made(catalogued("gas injection"));
   const auto evolution = model->evolve(interval(10, 200), core::Comm(), "", {});
   const auto X = evolution->initial();
   complementarity::NewtonParams newton;
@@ -250,7 +254,7 @@ TEST(TwoPhaseProblem, water_at_rest_stays_at_rest) {
 
 /// Gas in a closed column: nothing is lost, whatever it does.
 TEST(TwoPhaseEvolution, keeps_all_masses_in_a_closed_column) {
-  const auto model = two_phase(catalogued("closed column"), algebra::LinearParams{}, year, {});
+  const auto model = made(catalogued("closed column"));
   const auto evolution = model->evolve(interval(40, 20), core::Comm(), "", {});
   const auto X = evolution->initial();
   complementarity::StoppingParams stopping;
@@ -270,10 +274,9 @@ TEST(TwoPhaseEvolution, keeps_all_masses_in_a_closed_column) {
 TEST(TwoPhaseEvolution, refuses_parts_of_the_boundary_and_probes_that_are_not_there) {
   scene::TwoPhaseScene scene = catalogued("gas injection");
   scene.boundary["lid"];
-  EXPECT_THROW(two_phase(scene, {}, year, {})->evolve(interval(4, 200), core::Comm(), "", {}), core::InputError);
-  EXPECT_THROW(two_phase(catalogued("gas injection"), {}, year, std::vector<double>{250})->evolve(interval(4, 200), core::Comm(), "", {}),
-               core::InputError);
-  EXPECT_THROW(two_phase(catalogued("gas injection"), {}, year, {})->evolve(interval(4, 200), core::Comm(), "", {"u1"}), core::InputError);
+  EXPECT_THROW(made(scene)->evolve(interval(4, 200), core::Comm(), "", {}), core::InputError);
+  EXPECT_THROW(made(catalogued("gas injection"), {250})->evolve(interval(4, 200), core::Comm(), "", {}), core::InputError);
+  EXPECT_THROW(made(catalogued("gas injection"))->evolve(interval(4, 200), core::Comm(), "", {"u1"}), core::InputError);
 }
 
 }  // namespace
