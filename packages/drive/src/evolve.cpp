@@ -95,7 +95,9 @@ class Run {
   bool solve(const models::TimeStep& step, Vector& X) {
     complementarity::NewtonParams newton = params_.newton;
     newton.sweeps = params_.newton.sweeps.value_or(0);
-    out_.last = complementarity::newton(evolution_.problem(), X, newton, params_.stopping, params_.linear.check_every, on_step(step.end),
+    complementarity::StoppingParams stopping = params_.stopping;
+    stopping.absolute_tolerance += evolution_.round_off();
+    out_.last = complementarity::newton(evolution_.problem(), X, newton, stopping, params_.linear.check_every, on_step(step.end),
                                         [this](const Vector& iterate) { return evolution_.estimate(iterate); });
     out_.at.newton_iterations += out_.last.steps;
     out_.at.linear_iterations += out_.last.linear_iterations;

@@ -72,6 +72,24 @@ class BoundSoFar {
   bool every_step_ = true, any_step_ = false;
 };
 
+/// | sum over the faces of K of |F| rho_w kappa/(mu_l d_F) P_ref / (|K| mass_w) |, over all cells: the part of the equations of water that the
+/// pressure alone makes, without the cancellation between its two sides, per time. Collective.
+double rate_of_pressures(const TwoPhaseOperator& flow, const FlowScales& scales) {
+  const auto grid = fv::on_host(flow.grid());
+  const TwoPhaseLaws& laws = flow.laws();
+  double square = 0;
+  for (LocalIndex K = 0; K < flow.grid().owned_cells; ++K) {
+    double conductance = 0;
+    for (LocalIndex f = grid.cell_face_begin(K); f < grid.cell_face_begin(K + 1); ++f) {
+      const LocalIndex F = grid.cell_faces(f);
+      if (grid.face_cells(F, 1) >= 0) conductance += grid.face_area(F) / grid.face_distance(F);
+    }
+    const double rate = conductance * laws.rho_w * laws.permeability / laws.mu_l * scales.pressure / (grid.volume(K) * scales.mass[water]);
+    square += rate * rate;
+  }
+  return std::sqrt(flow.grid().comm.sum(square));
+}
+
 class TwoPhaseEvolution final : public Evolution {
  public:
   TwoPhaseEvolution(fv::Grid grid, const scene::TwoPhaseScene& scene, const algebra::LinearParams& linear, double seconds_per_unit,
@@ -81,7 +99,8 @@ class TwoPhaseEvolution final : public Evolution {
         initial_(flow_.initial()),
         problem_(flow_, FlowScales(flow_.laws(), reference_pressure(flow_, *initial_)), linear, initial_),
         balance_(flow_),
-        probes_(flow_.grid(), probes) {}
+        probes_(flow_.grid(), probes),
+        rate_of_pressures_(rate_of_pressures(flow_, problem_.scales())) {}
 
   const core::Comm& comm() const override { return flow_.grid().comm; }
   GlobalIndex cells() const override { return flow_.grid().global_cells; }
@@ -99,6 +118,10 @@ class TwoPhaseEvolution final : public Evolution {
     bound_begun_ = false;
   }
   complementarity::Problem& problem() override { return problem_; }
+  /// A quarter of a unit in the last place of the pressures, in the equations of water.
+  double round_off() const override {
+    return std::numeric_limits<double>::epsilon() / 4 * problem_.step().length * rate_of_pressures_;
+  }
   bool predict(Vector& X) override {
     if (before_last_.is_null()) return false;
     Tpetra::deep_copy(X, *predicted(flow_, *before_, *before_last_, problem_.step().length / last_length_));
@@ -231,6 +254,7 @@ class TwoPhaseEvolution final : public Evolution {
   TwoPhaseProblem problem_;
   TwoPhaseBalance balance_;
   TwoPhaseProbes probes_;
+  double rate_of_pressures_;
   Teuchos::RCP<const Vector> before_;       ///< X^{n-1} of the step begun
   Teuchos::RCP<const Vector> before_last_;  ///< at the beginning of the last step accepted, whose length is last_length_ [s]; null: none
   double last_length_ = 0;

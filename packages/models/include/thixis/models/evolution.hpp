@@ -62,6 +62,8 @@ class Evolution {
   virtual void begin(const TimeStep& step, const algebra::Vector& before) = 0;
   /// Of the step begun.
   virtual complementarity::Problem& problem() = 0;
+  /// To what rounding lets the residual of the step begun fall: a nonlinear solver is not asked for less.
+  virtual double round_off() const { return 0; }
   /// A better start for Newton's method than X^{n-1}, from the steps before; false: there is none, X is left as it was.
   virtual bool predict(algebra::Vector&) { return false; }
 
