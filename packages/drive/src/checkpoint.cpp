@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <filesystem>
-#include <numeric>
 
 #include "marking.hpp"
 #include "thixis/algebra/tpetra.hpp"
@@ -20,16 +19,6 @@ std::string absolute(const std::string& path) { return fs::absolute(path).lexica
 
 /// The block with the cells whose refinement made `level`.
 std::string marks_of(int level) { return fmt::format("marked for level {}", level); }
-
-/// Known everywhere, brought by the root: ids 0, 1, ..., values the global ids of the cells.
-output::CheckpointBlock block_of(int level, const std::vector<GlobalIndex>& marked, bool root) {
-  output::CheckpointBlock block{marks_of(level), {}, {}};
-  if (!root) return block;
-  block.ids.resize(marked.size());
-  std::iota(block.ids.begin(), block.ids.end(), 0);
-  block.values.assign(marked.begin(), marked.end());
-  return block;
-}
 
 }  // namespace
 
@@ -63,7 +52,7 @@ bool CheckpointFile::write(const Position& at, const models::Discretization& dis
                            {"history_rows", static_cast<double>(history_rows)}, {"seconds", mesh.comm.max(seconds)}};
   checkpoint.blocks = discretization.save(X);
   for (const auto& [level, marked] : marked_)
-    if (level <= at.level) checkpoint.blocks.push_back(block_of(level, marked, mesh.comm.root()));
+    if (level <= at.level) checkpoint.blocks.push_back(output::list_block(marks_of(level), marked, mesh.comm.root()));
   output::write_checkpoint(path_, checkpoint, mesh.comm);
   return true;
 }
@@ -71,12 +60,8 @@ bool CheckpointFile::write(const Position& at, const models::Discretization& dis
 void replay(const output::StoredCheckpoint& stored, mesh::Hierarchy& hierarchy, CheckpointFile& checkpoint) {
   const core::Region region("mesh");
   for (auto level = static_cast<int>(hierarchy.levels.size()); level <= stored.level(); ++level) {
-    const GlobalIndex count = stored.size(marks_of(level));
-    if (count < 0) return;  // check_restart has the sentence
-    std::vector<GlobalIndex> ids(count);
-    std::iota(ids.begin(), ids.end(), 0);
-    const std::vector<double> values = stored.fetch(marks_of(level), ids);
-    const std::vector<GlobalIndex> marked(values.begin(), values.end());
+    if (stored.size(marks_of(level)) < 0) return;  // check_restart has the sentence
+    const std::vector<GlobalIndex> marked = stored.fetch_list(marks_of(level));
     mesh::adapt(hierarchy, owned(hierarchy.finest(), marked));
     checkpoint.refined(level, marked);
   }

@@ -100,26 +100,26 @@ Fields MembraneLevel::from_coarse(const MembraneLevel& coarse, const Vector& coa
   return x;
 }
 
-std::vector<output::CheckpointBlock> MembraneLevel::save(const Vector& X) const {
+std::vector<output::CheckpointBlock> MembraneLevel::save(const Vector& X, const std::string& suffix) const {
   const Fields x = fields(X);
   std::vector<output::CheckpointBlock> blocks;
   const auto ids = space_->unknown_ids();
   const auto add = [&](const std::string& name, const Vector& v) {
     const auto values = algebra::host_view(v);
     const auto count = static_cast<std::ptrdiff_t>(values.extent(0));
-    blocks.push_back({name, {ids.begin(), ids.begin() + count}, {values.data(), values.data() + count}});
+    blocks.push_back({name + suffix, {ids.begin(), ids.begin() + count}, {values.data(), values.data() + count}});
   };
   for (int alpha = 0; alpha < scene_.count; ++alpha) add(displacement(alpha), *x.u.getVector(alpha));
   add("lambda", x.lambda);
   return blocks;
 }
 
-Teuchos::RCP<Vector> MembraneLevel::restore(const output::StoredCheckpoint& stored) const {
+Teuchos::RCP<Vector> MembraneLevel::restore(const output::StoredCheckpoint& stored, const std::string& suffix) const {
   Fields x = fields();
   const auto ids = space_->unknown_ids();
   const auto fetch = [&](const std::string& name, Vector& v) {
-    check_size(stored, name, static_cast<GlobalIndex>(v.getGlobalLength()));
-    const auto values = stored.fetch(name, {ids.begin(), ids.begin() + static_cast<std::ptrdiff_t>(v.getLocalLength())});
+    check_size(stored, name + suffix, static_cast<GlobalIndex>(v.getGlobalLength()));
+    const auto values = stored.fetch(name + suffix, {ids.begin(), ids.begin() + static_cast<std::ptrdiff_t>(v.getLocalLength())});
     const auto out = algebra::host_overwrite(v);
     std::copy(values.begin(), values.end(), out.data());
   };

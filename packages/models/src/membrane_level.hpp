@@ -46,9 +46,9 @@ class MembraneLevel {
   /// x from the solution on a coarser mesh, which the parent cells of this one belong to.
   Fields from_coarse(const MembraneLevel& coarse, const algebra::Vector& coarse_X) const;
 
-  /// X as named values whose ids do not depend on the number of ranks; Dirichlet values are left out.
-  std::vector<output::CheckpointBlock> save(const algebra::Vector& X) const;
-  Teuchos::RCP<algebra::Vector> restore(const output::StoredCheckpoint& stored) const;
+  /// X as named values whose ids do not depend on the number of ranks; Dirichlet values are left out. `suffix`: behind the names.
+  std::vector<output::CheckpointBlock> save(const algebra::Vector& X, const std::string& suffix = "") const;
+  Teuchos::RCP<algebra::Vector> restore(const output::StoredCheckpoint& stored, const std::string& suffix = "") const;
   std::vector<output::FieldData> shown(const algebra::Vector& X, const complementarity::ActiveSet& active,
                                        const std::vector<std::string>& names) const;
 

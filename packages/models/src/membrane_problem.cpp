@@ -133,6 +133,17 @@ void MembraneProblem::settle(Fields& x) const {
       });
 }
 
+void MembraneProblem::make_admissible(Fields& x) const {
+  settle(x);
+  const auto lambda = x.lambda.getLocalViewDevice(Tpetra::Access::ReadWrite);
+  const CloseGap close(membranes_, x.u);
+  Kokkos::parallel_for(
+      "thixis::models::make_admissible", Range(0, lambda.extent_int(0)), KOKKOS_LAMBDA(int l) {
+        if (lambda(l, 0) < 0) lambda(l, 0) = 0;
+        if (close.gap(l) < 0) close(l);
+      });
+}
+
 void MembraneProblem::make_complementary(Fields& x) const {
   const auto lambda = std::as_const(x.lambda).getLocalViewDevice(Tpetra::Access::ReadOnly);
   const CloseGap close(membranes_, x.u);

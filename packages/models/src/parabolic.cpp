@@ -74,9 +74,21 @@ class ParabolicEvolution final : public Evolution {
       space().forces(*scene_.tension[alpha], on_mesh_->lift(alpha), part);
       F.update(-1, part, 1);
     }
+    X_before_ = Teuchos::rcp(new Vector(before, Teuchos::Copy));
     step_ = step;
     begun_ = open_ = true;
     estimated_ = false;
+  }
+
+  /// X^{n-1} + ratio (X^{n-1} - X^{n-2}), made complementary point by point.
+  bool predict(Vector& X) override {
+    if (before_last_.is_null()) return false;
+    const double ratio = step_.length() / last_length_;
+    X.update(1 + ratio, *X_before_, -ratio, *before_last_, 0);
+    Fields x = on_mesh_->fields(X);
+    on_mesh_->problem().make_admissible(x);
+    join(x, X);
+    return true;
   }
 
   complementarity::Problem& problem() override { return on_mesh_->problem(); }
@@ -116,6 +128,8 @@ class ParabolicEvolution final : public Evolution {
     if (scene_.exact) squared_error_ += step_error(at(X));
     if (estimated_) bound_->accept();
     else bounded_ = false;
+    before_last_ = X_before_;
+    last_length_ = step_.length();
     open_ = false;
   }
 
@@ -187,12 +201,22 @@ class ParabolicEvolution final : public Evolution {
   }
 
   EvolutionState save(const Vector& X) const override {
-    std::map<std::string, double> sums = {{"data_time", on_mesh_->time()}, {"squared_energy_error", squared_error_}, {"bounded", bounded_}};
+    std::map<std::string, double> sums = {{"data_time", on_mesh_->time()},
+                                          {"squared_energy_error", squared_error_},
+                                          {"bounded", bounded_},
+                                          {"last_length", before_last_.is_null() ? 0 : last_length_}};
     if (bounded_) sums.merge(bound_ ? bound_->sums() : std::map<std::string, double>(restored_bound_));
-    return {on_mesh_->save(X), sums};
+    auto blocks = on_mesh_->save(X);
+    if (!before_last_.is_null())
+      for (auto& block : on_mesh_->save(*before_last_, of_before)) blocks.push_back(std::move(block));
+    for (const auto& [level, marked] : marked_) blocks.push_back(output::list_block(marks_of(level), marked, comm().root()));
+    return {std::move(blocks), sums};
   }
   Teuchos::RCP<Vector> restore(const output::StoredCheckpoint& stored) override {
+    replay(stored);
     auto X = on_mesh_->restore(stored);
+    last_length_ = stored.attribute("last_length");
+    before_last_ = last_length_ > 0 ? on_mesh_->restore(stored, of_before) : Teuchos::null;
     on_mesh_->move_to(stored.attribute("data_time"));
     squared_error_ = stored.attribute("squared_energy_error");
     begun_ = open_ = estimated_ = false;
@@ -210,21 +234,13 @@ class ParabolicEvolution final : public Evolution {
   /// boundary values: those are the interpolant of the data there.
   Teuchos::RCP<Vector> refine(const std::vector<GlobalIndex>& marked, const Vector& X) override {
     const double t = open_ ? step_.begin : on_mesh_->time();
-    const std::unordered_set<GlobalIndex> ids(marked.begin(), marked.end());
-    const mesh::Mesh& coarse = hierarchy_.finest();
-    std::vector<LocalIndex> cells;
-    for (LocalIndex K = 0; K < coarse.owned_cells; ++K)
-      if (ids.count(coarse.cell_id[K]) > 0) cells.push_back(K);
     on_mesh_->move_to(t);
     const Pair coarse_u = at(X);
-    mesh::adapt(hierarchy_, cells);
+    append(marked);
     const auto on_coarse = std::move(on_mesh_);
     const auto coarse_bound = std::move(bound_);
-    on_mesh_ = make_level();
+    go_to_finest();
     on_mesh_->move_to(t);
-    areas_ = Teuchos::null;
-    weight_ = 0;
-    begun_ = open_ = estimated_ = false;
     restored_bound_.clear();
     const auto fine_X = on_mesh_->joined(on_mesh_->from_coarse(*on_coarse, X));
     bounded_ = bounded_ && coarse_bound;
@@ -236,7 +252,38 @@ class ParabolicEvolution final : public Evolution {
   }
 
  private:
+  static constexpr const char* of_before = " before";
+  static std::string marks_of(int level) { return fmt::format("marked for level {}", level); }
+
   const method::Space& space() const { return on_mesh_->space(); }
+
+  /// A level of the hierarchy from the finest one and the ids of its cells to be refined.
+  void append(const std::vector<GlobalIndex>& marked) {
+    const core::Region region("mesh");
+    const std::unordered_set<GlobalIndex> ids(marked.begin(), marked.end());
+    const mesh::Mesh& coarse = hierarchy_.finest();
+    std::vector<LocalIndex> cells;
+    for (LocalIndex K = 0; K < coarse.owned_cells; ++K)
+      if (ids.count(coarse.cell_id[K]) > 0) cells.push_back(K);
+    mesh::adapt(hierarchy_, cells);
+    marked_[static_cast<int>(hierarchy_.levels.size()) - 1] = marked;
+  }
+
+  /// Nothing of the mesh before is kept.
+  void go_to_finest() {
+    on_mesh_ = make_level();
+    bound_.reset();
+    X_before_ = before_last_ = areas_ = Teuchos::null;
+    weight_ = 0;
+    begun_ = open_ = estimated_ = false;
+  }
+
+  /// The meshes that refinement had added when the checkpoint was written.
+  void replay(const output::StoredCheckpoint& stored) {
+    const auto have = hierarchy_.levels.size();
+    for (int level = static_cast<int>(have); stored.size(marks_of(level)) >= 0; ++level) append(stored.fetch_list(marks_of(level)));
+    if (hierarchy_.levels.size() > have) go_to_finest();
+  }
 
   std::unique_ptr<MembraneLevel> make_level() const {
     const core::Region region("assembly");
@@ -291,12 +338,16 @@ class ParabolicEvolution final : public Evolution {
   method::MethodParams method_;
   algebra::LinearParams linear_;
   mesh::Hierarchy hierarchy_;
+  std::map<int, std::vector<GlobalIndex>> marked_;  ///< cells whose refinement made this level
   std::unique_ptr<MembraneLevel> on_mesh_;
   double weight_ = 0;  ///< 1/tau in the matrices; 0: none yet
   TimeStep step_;
-  bool begun_ = false;  ///< step_ and before_ are those of the X at its end
-  bool open_ = false;   ///< … and it has not been accepted
-  Pair before_;         ///< u^{n-1}
+  bool begun_ = false;                      ///< step_ and before_ are those of the X at its end
+  bool open_ = false;                       ///< … and it has not been accepted
+  Pair before_;                             ///< u^{n-1}
+  Teuchos::RCP<const Vector> X_before_;     ///< X^{n-1} of the step begun
+  Teuchos::RCP<const Vector> before_last_;  ///< at the begin of the last step accepted, whose length is last_length_; null: none
+  double last_length_ = 0;
   double squared_error_ = 0;
   std::unique_ptr<equilibration::StepBound> bound_;  ///< made when an estimate is first asked for
   bool estimated_ = false;                           ///< in the step begun

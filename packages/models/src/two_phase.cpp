@@ -84,7 +84,7 @@ double rate_of_pressures(const TwoPhaseOperator& flow, const FlowScales& scales)
       const LocalIndex F = grid.cell_faces(f);
       if (grid.face_cells(F, 1) >= 0) conductance += grid.face_area(F) / grid.face_distance(F);
     }
-    const double rate = conductance * laws.rho_w * laws.permeability / laws.mu_l * scales.pressure / (grid.volume(K) * scales.mass[water]);
+    const double rate = conductance * laws.rho_w * laws.permeability / laws.viscosity_l * scales.pressure / (grid.volume(K) * scales.mass[water]);
     square += rate * rate;
   }
   return std::sqrt(flow.grid().comm.sum(square));

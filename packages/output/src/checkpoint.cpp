@@ -229,6 +229,15 @@ std::vector<int> reading_ranks(const std::vector<GlobalIndex>& ids, const Rows& 
 
 }  // namespace
 
+CheckpointBlock list_block(const std::string& name, const std::vector<GlobalIndex>& list, bool root) {
+  CheckpointBlock block{name, {}, {}};
+  if (!root) return block;
+  block.ids.resize(list.size());
+  std::iota(block.ids.begin(), block.ids.end(), 0);
+  block.values.assign(list.begin(), list.end());
+  return block;
+}
+
 std::vector<double> StoredCheckpoint::fetch(const std::string& block, const std::vector<GlobalIndex>& ids) const {
   if (size(block) < 0) throw core::FileError(fmt::format("The checkpoint '{}' does not hold '{}'.", path_, block));
   const Rows rows = read_rows(*file_, block, damaged(path_), comm_);
@@ -247,6 +256,13 @@ std::vector<double> StoredCheckpoint::fetch(const std::string& block, const std:
     return found;
   });
   return exchange.backward(answers.data());
+}
+
+std::vector<GlobalIndex> StoredCheckpoint::fetch_list(const std::string& block) const {
+  std::vector<GlobalIndex> ids(std::max<GlobalIndex>(0, size(block)));
+  std::iota(ids.begin(), ids.end(), 0);
+  const std::vector<double> values = fetch(block, ids);
+  return {values.begin(), values.end()};
 }
 
 }  // namespace thixis::output

@@ -95,6 +95,21 @@ TEST(checkpoint, gives_any_value_to_any_rank_bit_for_bit) {
   EXPECT_TRUE(stored.fetch("nothing", {}).empty());
 }
 
+TEST(checkpoint, gives_a_list_to_all_ranks) {
+  const core::Comm comm;
+  const std::string path = scratch("checkpoint_list") + "/checkpoint.h5";
+  const std::vector<GlobalIndex> list = {7, 3, 3, (GlobalIndex(1) << 53) - 1}, none;
+  Checkpoint checkpoint = example(comm);
+  checkpoint.blocks.push_back(list_block("some cells", list, comm.root()));
+  checkpoint.blocks.push_back(list_block("no cells", none, comm.root()));
+  write_checkpoint(path, checkpoint, comm);
+  const auto stored = read_checkpoint(path, comm);
+  EXPECT_EQ(stored.fetch_list("some cells"), list);
+  EXPECT_EQ(stored.fetch_list("no cells"), none);
+  EXPECT_EQ(sentence_of(core::ExitCode::input_output, [&] { (void)stored.fetch_list("others"); }),
+            "The checkpoint '" + path + "' does not hold 'others'.");
+}
+
 TEST(checkpoint, does_not_depend_on_who_owns_what) {
   const core::Comm comm;
   const std::string folder = scratch("checkpoint_ranks");

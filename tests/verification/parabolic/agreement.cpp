@@ -142,6 +142,39 @@ TEST(Refinement, keeps_the_functions) {
   EXPECT_LE(complementarity::verify(evolution.kkt_data(Y)).worst(), 1e-8);
 }
 
+/// Nothing to go by in the first step; then complementary at every point, and closer to the end of the step than its begin.
+TEST(Prediction, is_admissible_and_closer) {
+  for (const auto& [method, degree] : {std::pair(MethodName::fem, 1), std::pair(MethodName::fem, 2), std::pair(MethodName::hho, 1)}) {
+    const auto params = fit_for_ranks(on_squares("smooth moving contact", 4, method, degree));
+    March run = march(params, 1, 0.05);
+    models::Evolution& evolution = *run.evolution;
+    const auto fresh = run.model->evolve(params.mesh, core::Comm(), "", {});
+    const auto initial = fresh->initial();
+    fresh->begin({0, 0.05}, *initial);
+    EXPECT_FALSE(fresh->predict(*initial));
+    double from_before = 0, from_prediction = 0;
+    for (int n = 2; n <= 6; ++n) {
+      const Vector before(*run.X, Teuchos::Copy);
+      evolution.begin({0.05 * (n - 1), 0.05 * n}, before);
+      Vector start(before, Teuchos::Copy);
+      ASSERT_TRUE(evolution.predict(start));
+      Vector K(evolution.problem().points()), G(evolution.problem().points());
+      evolution.problem().arguments(start, K, G);
+      const auto gap = algebra::host_view(K), multiplier = algebra::host_view(G);
+      for (std::size_t l = 0; l < gap.extent(0); ++l) {
+        EXPECT_GE(multiplier(l), 0);
+        EXPECT_GE(gap(l), -1e-15);
+        EXPECT_LE(std::abs(gap(l) * multiplier(l)), 1e-15);
+      }
+      complementarity::newton(evolution.problem(), *run.X, params.newton, params.stopping, 10, {}, {});
+      evolution.accept(*run.X);
+      from_before += distance(before, *run.X);
+      from_prediction += distance(start, *run.X);
+    }
+    EXPECT_LT(from_prediction, from_before) << "degree " << degree;
+  }
+}
+
 TEST(Checkpoint, brings_everything_to_the_next_step) {
   const core::Comm comm;
   const auto params = fit_for_ranks(on_squares("moving contact", 4, MethodName::hho, 2));
@@ -163,6 +196,51 @@ TEST(Checkpoint, brings_everything_to_the_next_step) {
     else EXPECT_EQ(distance(Y, *run.X), 0);
   }
   EXPECT_EQ(again->energy_error(), run.evolution->energy_error());
+}
+
+/// Mesh, prediction and bound of a run whose mesh was refined twice, bit for bit.
+TEST(Checkpoint, brings_the_refined_mesh) {
+  const core::Comm comm;
+  for (const auto method : {MethodName::fem, MethodName::hho}) {
+    const auto params = fit_for_ranks(on_squares("smooth moving contact", 4, method, 2));
+    const auto model =
+        models::parabolic_membranes(scene::membrane_scene(params.scene),
+                                    method == MethodName::hho ? hho::make_space : fem::make_lagrange_space, params.method, params.linear);
+    const auto step = [&](models::Evolution& evolution, int n, Teuchos::RCP<Vector>& X) {
+      const Vector before(*X, Teuchos::Copy);
+      evolution.begin({0.1 * (n - 1), 0.1 * n}, before);
+      evolution.predict(*X);
+      complementarity::newton(evolution.problem(), *X, params.newton, params.stopping, 10, {}, {});
+      evolution.estimate(*X);
+      evolution.accept(*X);
+    };
+    const auto evolution = model->evolve(params.mesh, comm, "", {});
+    auto X = evolution->initial();
+    for (int n = 1; n <= 4; ++n) {
+      step(*evolution, n, X);
+      if (n > 2) continue;
+      std::vector<GlobalIndex> marked;  // all of them on all ranks
+      for (GlobalIndex id = n; id < evolution->cells(); id += 3) marked.push_back(id);
+      X = evolution->refine(marked, *X);
+    }
+    const auto state = evolution->save(*X);
+    const std::string path =
+        (std::filesystem::temp_directory_path() / ("refined_checkpoint_" + std::to_string(comm.size()) + ".h5")).string();
+    output::write_checkpoint(path, {"", "/", 0, state.attributes, state.blocks}, comm);
+    const auto again = model->evolve(params.mesh, comm, "", {});
+    EXPECT_LT(again->cells(), evolution->cells());
+    auto Y = again->restore(output::read_checkpoint(path, comm));
+    ASSERT_EQ(again->cells(), evolution->cells());
+    ASSERT_EQ(again->hierarchy()->levels.size(), evolution->hierarchy()->levels.size());
+    EXPECT_EQ(distance(*X, *Y), 0);
+    for (int n = 5; n <= 6; ++n) {
+      step(*evolution, n, X);
+      step(*again, n, Y);
+      EXPECT_EQ(distance(*X, *Y), 0);
+      EXPECT_EQ(evolution->estimate_so_far()->total, again->estimate_so_far()->total);
+      EXPECT_EQ(evolution->energy_error(), again->energy_error());
+    }
+  }
 }
 
 TEST(Mistakes, are_told_before_the_first_step) {

@@ -17,6 +17,9 @@ struct CheckpointBlock {
   std::vector<double> values;    ///< one per id; also those that are not finite are kept, bit for bit
 };
 
+/// A list that is known on all ranks, as a block: ids 0, 1, …, brought by the root. Numbers are exact up to 2^53.
+CheckpointBlock list_block(const std::string& name, const std::vector<GlobalIndex>& list, bool root);
+
 /// Everything a run needs to go on. All but the blocks are the same on all ranks.
 struct Checkpoint {
   std::string deck;                          ///< the deck as run (XML), what was overridden included
@@ -61,6 +64,8 @@ class StoredCheckpoint {
   /// The values of these ids, exactly as they were saved; any ids on any rank, also several times. Each rank reads a part of the file
   /// and answers the others. Collective; throws FileError on all ranks where an id or the block is absent, or the file is damaged.
   std::vector<double> fetch(const std::string& block, const std::vector<GlobalIndex>& ids) const;
+  /// All of a `list_block`, on all ranks. Collective; as fetch.
+  std::vector<GlobalIndex> fetch_list(const std::string& block) const;
 
  private:
   friend StoredCheckpoint read_checkpoint(const std::string& path, const core::Comm& comm);
