@@ -1,6 +1,7 @@
 #include "two_phase_problem.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "thixis/core/timer.hpp"
@@ -15,6 +16,8 @@ using In = decltype(std::declval<const Vector&>().getLocalViewDevice(Tpetra::Acc
 using Out = decltype(std::declval<Vector&>().getLocalViewDevice(Tpetra::Access::ReadWrite));
 
 constexpr int contact_row = 0, first_equation = 1;
+constexpr double some_gas = 1e-8;   // s_g of cells that can give and take water
+constexpr double singular = 1e-10;  // share of the determinant that cancellation must leave
 
 In read(const Vector& v) { return v.getLocalViewDevice(Tpetra::Access::ReadOnly); }
 Out write(Vector& v) { return v.getLocalViewDevice(Tpetra::Access::ReadWrite); }
@@ -117,6 +120,18 @@ struct Fill {
   }
 };
 
+/// W^T v over the owned cells: the rows of water and of hydrogen summed with the weights |K|, masses over mass_c.
+std::array<double, components> summed(const fv::Grid& grid, const Vector& v) {
+  std::array<double, components> sum;
+  const auto volume = grid.volume;
+  const auto in = read(v);
+  for (int c = 0; c < components; ++c)
+    Kokkos::parallel_reduce(
+        "thixis::models::summed", Cells(0, grid.owned_cells),
+        KOKKOS_LAMBDA(LocalIndex K, double& of) { of += volume(K) * in(unknowns_per_cell * K + first_equation + c, 0); }, sum[c]);
+  return sum;
+}
+
 Teuchos::RCP<algebra::MultiVector> coordinates_of(const TwoPhaseOperator& flow) {
   const fv::Grid& grid = flow.grid();
   const auto coordinates = Teuchos::rcp(new algebra::MultiVector(flow.cells(), grid.dimension));
@@ -137,7 +152,14 @@ FlowScales::FlowScales(const TwoPhaseLaws& laws, double P_ref)
 
 TwoPhaseProblem::TwoPhaseProblem(const TwoPhaseOperator& flow, const FlowScales& scales, const algebra::LinearParams& params,
                                  Teuchos::RCP<const Vector> origin)
-    : flow_(flow), scales_(scales), origin_(std::move(origin)), coordinates_(coordinates_of(flow)), solver_(params) {}
+    : flow_(flow), scales_(scales), origin_(std::move(origin)), coordinates_(coordinates_of(flow)), solver_(params) {
+  int faces = 0;
+  const auto kind = flow.face_kind();
+  Kokkos::parallel_reduce(
+      "thixis::models::open", Cells(0, flow.grid().faces),
+      KOKKOS_LAMBDA(LocalIndex F, int& sum) { sum += kind(F) == scene::FlowBoundaryKind::state; }, faces);
+  open_ = !flow.grid().comm.all(faces == 0);
+}
 
 void TwoPhaseProblem::begin(FlowStep step) {
   step_ = std::move(step);
@@ -274,9 +296,51 @@ algebra::LinearReport TwoPhaseProblem::solve(const Vector& R, Vector& dX, const 
       return stop.criterion(x, iteration, residual);
     };
   dX.putScalar(0);
-  const algebra::LinearReport report = solver_.solve(minus_R, dX, scaled);
+  algebra::LinearReport report = solver_.solve(minus_R, dX, scaled);
+  if (report.converged) balance(minus_R, dX, report.residual);
   scale(dX, true);
   return report;
+}
+
+/// The column of Z for a component: chi for hydrogen; for water P if it can leave through faces of kind state, else s_g where there is gas.
+Teuchos::RCP<Vector> TwoPhaseProblem::balancing_mode(int component) const {
+  const auto mode = Teuchos::rcp(new Vector(flow_.map()));
+  const auto z = write(*mode);
+  const auto states = at_.states;
+  const int unknown = component == hydrogen ? dissolved : open_ ? pressure : gas_saturation;
+  Kokkos::parallel_for(
+      "thixis::models::balancing_mode", Cells(0, flow_.grid().owned_cells), KOKKOS_LAMBDA(LocalIndex K) {
+        if (unknown != gas_saturation || states(K).s_g > some_gas) z(unknowns_per_cell * K + unknown, 0) = 1;
+      });
+  return mode;
+}
+
+/// Y <- Y + Z c with W^T (B - A Y) = 0. What the solver left, residual, becomes |B - A Y|; both stay as they are where the 2x2 system is
+/// nearly singular, and where the residual would grow so much that a step of Newton's method could suffer.
+void TwoPhaseProblem::balance(const Vector& B, Vector& Y, double& residual) const {
+  const core::Region region("balance");
+  const fv::Grid& grid = flow_.grid();
+  Vector r(B, Teuchos::Copy);
+  A_->apply(Y, r, Teuchos::NO_TRANS, -1, 1);
+  const Teuchos::RCP<const Vector> Z[components] = {balancing_mode(water), balancing_mode(hydrogen)};
+  Vector AZ[components] = {Vector(flow_.map()), Vector(flow_.map())};
+  std::vector<double> sum;  // of the columns of A Z, and of r
+  for (const Vector* v : {&AZ[water], &AZ[hydrogen], &r}) {
+    if (v != &r) A_->apply(*Z[v - AZ], AZ[v - AZ]);
+    const auto of = summed(grid, *v);
+    sum.insert(sum.end(), of.begin(), of.end());
+  }
+  grid.comm.sum(sum);
+
+  const double plus = sum[0] * sum[3], minus = sum[1] * sum[2], determinant = plus - minus;
+  if (!(std::abs(determinant) > singular * (std::abs(plus) + std::abs(minus)))) return;
+  const double c[components] = {(sum[4] * sum[3] - sum[5] * sum[2]) / determinant, (sum[0] * sum[5] - sum[1] * sum[4]) / determinant};
+  const double before = r.norm2();
+  r.update(-c[water], AZ[water], -c[hydrogen], AZ[hydrogen], 1);
+  const double after = r.norm2();
+  if (!(after <= std::max(2 * before, 0.1 * B.norm2()))) return;
+  Y.update(c[water], *Z[water], c[hydrogen], *Z[hydrogen], 1);
+  residual = after;
 }
 
 double TwoPhaseProblem::rhs_norm(const Vector& X, const Vector& R) const {

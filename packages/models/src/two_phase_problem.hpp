@@ -20,7 +20,8 @@ struct FlowScales {
 ///     K = s_g,   G = H P_g - beta_l chi  [kg/m^3].
 ///
 /// Rows of a cell: contact, water, hydrogen. So the diagonal holds the derivatives by s_g, P, chi that dominate them, and incomplete
-/// factors of level 0 are exact in one dimension.
+/// factors of level 0 are exact in one dimension. `solve` closes the linearized balances of both components to rounding, whatever the
+/// solver leaves.
 class TwoPhaseProblem final : public complementarity::Problem {
  public:
   /// Where the equations of the step were linearized last; X null: nowhere yet.
@@ -61,10 +62,13 @@ class TwoPhaseProblem final : public complementarity::Problem {
  private:
   void set_pattern();
   void scale(algebra::Vector& X, bool up) const;
+  Teuchos::RCP<algebra::Vector> balancing_mode(int component) const;
+  void balance(const algebra::Vector& B, algebra::Vector& Y, double& residual) const;
 
   const TwoPhaseOperator& flow_;
   FlowScales scales_;
   Teuchos::RCP<const algebra::Vector> origin_;
+  bool open_;  ///< part of the boundary is of kind state
   FlowStep step_;
   double reference_norm_ = 0;
   Linearization at_;
