@@ -338,7 +338,7 @@ void TwoPhaseProblem::balance(const Vector& B, Vector& Y, double& residual) cons
   const double before = r.norm2();
   r.update(-c[water], AZ[water], -c[hydrogen], AZ[hydrogen], 1);
   const double after = r.norm2();
-  if (!(after <= std::max(2 * before, 0.1 * B.norm2()))) return;
+  if (!(after <= std::max(2 * before, 0.5 * B.norm2()))) return;
   Y.update(c[water], *Z[water], c[hydrogen], *Z[hydrogen], 1);
   residual = after;
 }
