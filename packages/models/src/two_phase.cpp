@@ -118,9 +118,9 @@ class TwoPhaseEvolution final : public Evolution {
     bound_begun_ = false;
   }
   complementarity::Problem& problem() override { return problem_; }
-  /// A quarter of a unit in the last place of the pressures, in the equations of water.
+  /// A unit in the last place of the pressures, in the equations of water.
   double round_off() const override {
-    return std::numeric_limits<double>::epsilon() / 4 * problem_.step().length * rate_of_pressures_;
+    return std::numeric_limits<double>::epsilon() * problem_.step().length * rate_of_pressures_;
   }
   bool predict(Vector& X) override {
     if (before_last_.is_null()) return false;
