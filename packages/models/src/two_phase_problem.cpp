@@ -17,6 +17,7 @@ using Out = decltype(std::declval<Vector&>().getLocalViewDevice(Tpetra::Access::
 
 constexpr int contact_row = 0, first_equation = 1;
 constexpr double some_gas = 1e-8;   // s_g of cells that can give and take water
+constexpr double rounding = 1e-15;  // mean row that needs no correction
 constexpr double singular = 1e-10;  // share of the determinant that cancellation must leave
 
 In read(const Vector& v) { return v.getLocalViewDevice(Tpetra::Access::ReadOnly); }
@@ -158,6 +159,10 @@ TwoPhaseProblem::TwoPhaseProblem(const TwoPhaseOperator& flow, const FlowScales&
   Kokkos::parallel_reduce(
       "thixis::models::open", Cells(0, flow.grid().faces),
       KOKKOS_LAMBDA(LocalIndex F, int& sum) { sum += kind(F) == scene::FlowBoundaryKind::state; }, faces);
+  const auto volume = flow.grid().volume;
+  Kokkos::parallel_reduce(
+      "thixis::models::volume", Cells(0, flow.grid().owned_cells), KOKKOS_LAMBDA(LocalIndex K, double& sum) { sum += volume(K); }, volume_);
+  volume_ = flow.grid().comm.sum(volume_);
   open_ = !flow.grid().comm.all(faces == 0);
 }
 
@@ -332,6 +337,7 @@ void TwoPhaseProblem::balance(const Vector& B, Vector& Y, double& residual) cons
   }
   grid.comm.sum(sum);
 
+  if (std::max(std::abs(sum[4]), std::abs(sum[5])) <= rounding * volume_) return;
   const double plus = sum[0] * sum[3], minus = sum[1] * sum[2], determinant = plus - minus;
   if (!(std::abs(determinant) > singular * (std::abs(plus) + std::abs(minus)))) return;
   const double c[components] = {(sum[4] * sum[3] - sum[5] * sum[2]) / determinant, (sum[0] * sum[5] - sum[1] * sum[4]) / determinant};

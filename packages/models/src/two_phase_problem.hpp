@@ -68,7 +68,8 @@ class TwoPhaseProblem final : public complementarity::Problem {
   const TwoPhaseOperator& flow_;
   FlowScales scales_;
   Teuchos::RCP<const algebra::Vector> origin_;
-  bool open_;  ///< part of the boundary is of kind state
+  double volume_ = 0;  ///< of all cells, on all ranks
+  bool open_;          ///< part of the boundary is of kind state
   FlowStep step_;
   double reference_norm_ = 0;
   Linearization at_;
