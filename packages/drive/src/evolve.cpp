@@ -131,6 +131,10 @@ class Run {
     if (!params_.stopping.target || !evolution_.hierarchy()) return false;
     const double share = *params_.stopping.target * std::sqrt(step.length() / time_.end);
     if (eta_->discretization <= share) return false;
+    if (const auto errors = evolution_.step_errors(); errors && errors->time > errors->space) {
+      out_.steps_too_long = true;
+      return false;
+    }
     const AdaptParams adapt = params_.adapt.value_or(AdaptParams());
     const auto& hierarchy = *evolution_.hierarchy();
     const int added = static_cast<int>(hierarchy.levels.size()) - 1 - params_.mesh.refinements;

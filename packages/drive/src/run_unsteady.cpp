@@ -85,8 +85,9 @@ Verdict judge(const RunParams& params, const models::Evolution& evolution, const
   const auto bound = evolution.estimate_so_far();
   if (params.stopping.target && bound && bound->total > *params.stopping.target)
     return {ExitCode::target_missed,
-            fmt::format("target missed: {} {:.4e}, not {:g}{}{}.", evolution.bound_name(), bound->total, *params.stopping.target,
+            fmt::format("target missed: {} {:.4e}, not {:g}{}{}{}.", evolution.bound_name(), bound->total, *params.stopping.target,
                         outcome.refinement_limited ? "; adapt/max levels or adapt/max unknowns kept the mesh from becoming finer" : "",
+                        outcome.steps_too_long ? "; most of it is the error in time: take shorter steps (time/step)" : "",
                         clauses.empty() ? "" : "; besides, not as expected: " + clauses)};
   if (!clauses.empty()) return {ExitCode::target_missed, "solved, but not as expected: " + clauses + "."};
   return {ExitCode::done, fmt::format("solved in {}{}.", effort(outcome.at), qualities(params, evolution, outcome))};

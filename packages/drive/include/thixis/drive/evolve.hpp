@@ -53,6 +53,7 @@ struct EvolutionOutcome {
   bool solved = false;                      ///< the end of the time was reached
   bool not_wanted = false;                  ///< max iterations = 0: only counted
   bool refinement_limited = false;          ///< adapt: a limit kept the mesh from becoming as fine as the target wants it
+  bool steps_too_long = false;              ///< in a step whose share was too large, most of it was the error in time
   std::string why;                          ///< not solved: one sentence
   std::string stopped;                      ///< ended by EvolutionObserver::stop: its sentence
   complementarity::NewtonReport last;       ///< of the last attempt
@@ -67,7 +68,8 @@ struct EvolutionOutcome {
 ///
 /// The run ends without success where a step would have to be shorter than time/smallest. With time/adaptive a step whose error in time is
 /// too large is begun again, shorter; with a target (stopping/target bounds the error over all time) one whose share is too large,
-/// |eta_disc|² > target² length/end, is begun again on a finer mesh, as far as `adapt` allows.
+/// |eta_disc|² > target² length/end, is begun again on a finer mesh, as far as `adapt` allows and unless most of it is the error in time,
+/// which only shorter steps take away.
 EvolutionOutcome evolve(models::Evolution& evolution, const RunParams& params, const EvolutionObserver& observer,
                         const output::StoredCheckpoint* stored = nullptr);
 
