@@ -12,10 +12,7 @@ import sys
 import time
 from pathlib import Path
 
-try:
-    import h5py
-except ImportError:
-    h5py = None
+import h5py
 
 HERE = Path(__file__).resolve().parent
 scenario, deck, program, launcher = sys.argv[1], HERE / f"{sys.argv[2]}.xml", sys.argv[3], sys.argv[5:]
@@ -75,8 +72,6 @@ def expect_same(folder, whole, tolerance=0):
     expect_same_table(folder, whole, "series.csv", tolerance)
     if tolerance == 0:
         expect_same_table(folder, whole, "history.csv", 0)
-    if h5py is None:
-        return
     ours, theirs = fields(folder), fields(whole)
     assert list(ours) == list(theirs) and len(theirs) > 3, (list(ours), list(theirs))
     for frame, (moment, values) in theirs.items():

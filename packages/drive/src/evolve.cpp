@@ -19,7 +19,7 @@ using algebra::Vector;
 class Run {
  public:
   Run(models::Evolution& evolution, const RunParams& params, const EvolutionObserver& observer)
-      : evolution_(evolution), params_(params), time_(*params.time), observer_(observer), control_(time_) {}
+      : evolution_(evolution), params_(params), time_(*params.time), observer_(observer), control_(time_, evolution.jumps()) {}
 
   EvolutionOutcome from(const output::StoredCheckpoint* stored) {
     out_.not_wanted = params_.newton.max_iterations == 0;
@@ -141,8 +141,8 @@ class Run {
     out_.refinement_limited = true;
     if (added >= adapt.max_levels || evolution_.sizes().unknowns_all >= adapt.max_unknowns) return false;
     const auto marked = refinable(hierarchy.finest(), mark(hierarchy.finest(), adapt, evolution_.cell_estimates().discretization));
-    if (marked.empty()) return false;
     out_.refinement_limited = false;
+    if (marked.empty()) return false;
     out_.X = evolution_.refine(marked, *out_.X);
     if (observer_.refined) observer_.refined(out_.at, static_cast<GlobalIndex>(marked.size()), evolution_);
     return true;
@@ -178,7 +178,8 @@ class Run {
     const core::Region region("verification");
     const auto data = evolution_.kkt_data(*out_.X);
     const double residual =
-        params_.stopping.nonlinear_tolerance * evolution_.problem().reference_norm() + params_.stopping.absolute_tolerance;
+        params_.stopping.nonlinear_tolerance * evolution_.problem().reference_norm() + params_.stopping.absolute_tolerance +
+        evolution_.round_off();
     out_.kkt = complementarity::verify(data);
     out_.kkt_tolerance = params_.stopping.kkt_tolerance.value_or(data.allowed(residual));
   }

@@ -65,28 +65,29 @@ void FollowEvolution::step(const StepRecord& record, const models::Evolution& ev
     row.seconds = seconds();
     history_.append(row);
   }
+  estimated_ = record.of_step.has_value();
   if (series_) series_->append(at.time, evolution.series(X));
-  if (at.step % params_.output.fields_every == 0) show(at.step, at.time, evolution, X, active, record.of_step.has_value());
+  if (at.step % params_.output.fields_every == 0) show(at.step, at.time, evolution, X, active);
   const double whole = params_.time->end - first_time_;
   progress_.update(whole > 0 ? (at.time - first_time_) / whole : 1, fmt::format("t = {:.6g}", at.time));
 }
 
 void FollowEvolution::show(int step, double time, const models::Evolution& evolution, const algebra::Vector& X,
-                           const complementarity::ActiveSet& active, bool estimated) {
+                           const complementarity::ActiveSet& active) {
   if (!fields_ || step <= last_frame_) return;
   const core::Region region("output");
   std::vector<output::FieldData> fields;
   if (const auto names = params_.output.model_names(); params_.output.fields == "all" || !names.empty())
     fields = evolution.fields(X, active, names);
   const output::Grid grid = evolution.grid();
-  if (estimated) add_estimates(params_.output, evolution.cell_estimates(), grid, fields);
+  if (estimated_) add_estimates(params_.output, evolution.cell_estimates(), grid, fields);
   fields_->write(grid, fields, time);
   last_frame_ = step;
 }
 
 void FollowEvolution::finish(const models::Evolution& evolution, const EvolutionOutcome& outcome) {
   // what was stopped goes on with the frames that it would have had
-  if (outcome.stopped.empty()) show(outcome.at.step, outcome.at.time, evolution, *outcome.X, outcome.last.active_set, false);
+  if (outcome.stopped.empty()) show(outcome.at.step, outcome.at.time, evolution, *outcome.X, outcome.last.active_set);
   if (fields_) fields_->close();
 }
 

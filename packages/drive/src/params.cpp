@@ -67,7 +67,10 @@ const core::Schema<OutputParams>& OutputParams::schema() {
           .parameter("fields every", &OutputParams::fields_every, core::at_least(1),
                      "Scenes in time: fields are written after so many steps, and at the beginning and the end.")
           .parameter("probes", &OutputParams::probes,
-                     "Scenes in time: the points of series.csv, x and y of each one (intervals: x alone); not given: chosen by the scene.");
+                     "Two-phase flow: the points of series.csv, x and y of each one (intervals: x alone); not given: chosen by the scene.")
+          .check([](const OutputParams& params, core::Problems& problems) {
+            if (trimmed(params.fields).empty()) problems.add("fields", "must be all, none, or names separated by commas.");
+          });
   return schema;
 }
 
@@ -89,6 +92,9 @@ const core::Schema<TimeParams>& TimeParams::schema() {
           .parameter("largest", &TimeParams::largest, core::above(0), "Longest step of adaptive = true; not given: the whole time.")
           .parameter("growth", &TimeParams::growth, core::above(1), "The next step is at most so many times longer.")
           .check([](const TimeParams& params, core::Problems& problems) {
+            if (params.smallest && *params.smallest > params.step) problems.add("smallest", "must not be above 'step'.");
+            if (params.smallest && params.largest && *params.smallest > *params.largest)
+              problems.add("largest", "must not be below 'smallest'.");
             for (const double t : params.also)
               if (!(t > 0 && t < params.end)) problems.add("also", "must hold times between 0 and the end.");
           });

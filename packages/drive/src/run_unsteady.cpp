@@ -37,6 +37,7 @@ Found found(const models::Evolution& evolution, const EvolutionOutcome& outcome)
     if (const auto bound = evolution.estimate_so_far()) found.bound = bound->total;
     found.effectivity = effectivity(evolution);
     found.newton_iterations = outcome.at.newton_iterations;
+    found.newton_finest = outcome.last.steps;
     found.linear_iterations = outcome.at.linear_iterations;
     found.steps = outcome.at.step;
     found.retries = outcome.at.retries;
@@ -122,6 +123,18 @@ output::Summary summarize(const RunParams& params, const models::Model& model, c
   return summary;
 }
 
+/// Throws InputError where the deck leaves nothing to do, or contradicts what the interrupted run has left.
+void check_restart(const output::StoredCheckpoint& stored, const StoredEvolution& from, const RunParams& params, bool goes_on,
+                   models::Evolution& evolution) {
+  if (from.at.time >= params.time->end)
+    throw core::InputError(fmt::format("time/end: the checkpoint '{}' is at time {:g} already; write a later end than {:g}.", stored.path(),
+                                       from.at.time, params.time->end));
+  if (goes_on && core::Deck::from_text(stored.deck(), stored.path()).parse(RunParams::schema()).output.probes != params.output.probes)
+    throw core::InputError(
+        "output/probes: series.csv goes on with the probes it has; leave them as they were, or write to another folder with --output.");
+  evolution.restore(stored);  // throws where scene, mesh or method are others
+}
+
 std::string invitation(const std::string& checkpoint) { return "to go on from the last step: thixis restart " + checkpoint; }
 
 }  // namespace
@@ -135,11 +148,11 @@ core::ExitCode run_unsteady(const RunParams& params, const models::UnsteadyModel
     const core::Region region("mesh");
     evolution = model.evolve(params.mesh, comm, deck.folder(), params.output.model_names());
   }
-  const StoredEvolution from = stored ? stored_evolution(*stored) : StoredEvolution{};
-
   const output::RunDirectory directory(params.output.directory);
   const EvolutionCheckpoint checkpoint(directory.checkpoint(), params, deck);
   const bool goes_on = stored && same_directory(*stored, directory.path());
+  const StoredEvolution from = stored ? stored_evolution(*stored) : StoredEvolution{};
+  if (stored) check_restart(*stored, from, params, goes_on, *evolution);
   open(directory, params, goes_on, comm);
   introduce(deck, model, comm, versions);
   if (stored) say_where(from.at);

@@ -31,6 +31,7 @@ void judge_estimate(const RunParams& params, Mistakes& mistakes) {
   steered(stopping.rule == StoppingRule::adaptive, "stopping/rule", "the rule adaptive");
   steered(stopping.target.has_value(), "stopping/target", "a target");
   steered(params.adapt.has_value(), "adapt", "adaptive refinement");
+  steered(params.time && params.time->adaptive, "time/adaptive", "step control");
   if (stopping.local && stopping.rule != StoppingRule::adaptive)
     mistakes.push_back("stopping/local: only the rule adaptive looks at single cells; write stopping/rule = adaptive, or leave this out.");
 
@@ -107,6 +108,10 @@ void judge_time(const RunParams& params, Mistakes& mistakes) {
     mistakes.push_back("newton/initial: each step of time starts from the state before; give initial data in the block 'scene'.");
   if (params.adapt && !params.stopping.target)
     mistakes.push_back("adapt: in time the mesh is refined where the target asks for it; give stopping/target as well.");
+  if (params.scene.model == scene::Model::parabolic_membranes && params.method.name == method::MethodName::dg && params.estimated())
+    mistakes.push_back(
+        "method/name: in time the error of dg is not bounded; write fem or hho, or leave out what needs an estimate (stopping/rule, "
+        "estimate, target, time/adaptive).");
   if (params.scene.model == scene::Model::two_phase && params.adaptive())
     mistakes.push_back(
         "stopping/target: the meshes of two-phase flow are not refined in time; leave out the target and the block 'adapt'.");

@@ -20,7 +20,7 @@ double factor(const models::StepErrors& errors, double least, double most) {
 double StepControl::next_mark(double t) const {
   const double slack = round_off * params_.step;
   double mark = params_.end;
-  for (const double also : params_.also)
+  for (const double also : also_)
     if (also > t + slack) mark = std::min(mark, also);
   if (!params_.adaptive) {
     const double multiple = (std::floor(t / params_.step + round_off) + 1) * params_.step;

@@ -1,4 +1,7 @@
 #pragma once
+#include <algorithm>
+#include <vector>
+
 #include "thixis/drive/params.hpp"
 #include "thixis/models/evolution.hpp"
 
@@ -6,7 +9,8 @@ namespace thixis::drive {
 
 /// How long the next step of time is.
 ///
-/// Steps end at marks: the multiples of time/step (not where the estimate controls the steps), the times of time/also, and time/end. A step
+/// Steps end at marks: the multiples of time/step (not where the estimate controls the steps), the times of time/also and those at which data of the scene
+/// jump, and time/end. A step
 /// that fails is cut to a half; those behind it grow by at most time/growth until they reach the marks again.
 ///
 /// With time/adaptive the time part of the estimate of a step is to be half of its space part. Their ratio is proportional to the length,
@@ -14,7 +18,10 @@ namespace thixis::drive {
 /// and begun again.
 class StepControl {
  public:
-  explicit StepControl(const TimeParams& params) : params_(params), length_(params.step) {}
+  explicit StepControl(const TimeParams& params, std::vector<double> jumps = {})
+      : params_(params), also_(std::move(jumps)), length_(std::min(params.step, longest())) {
+    also_.insert(also_.end(), params.also.begin(), params.also.end());
+  }
 
   /// Where the step that begins at t ends.
   double end_of_step(double t) const;
@@ -35,6 +42,7 @@ class StepControl {
   double longest() const { return params_.adaptive ? params_.largest.value_or(params_.end) : params_.step; }
 
   const TimeParams& params_;
+  std::vector<double> also_;  ///< of the deck and of the scene
   double length_;  ///< wanted for the next step
 };
 

@@ -320,7 +320,7 @@ void StepBound::Impl::sum_up() {
   step.energy = squared(std::sqrt(length * sum[of_flux]) + N) + length * (sum[of_pair] + together);
   step.remainder = R;
   eta = {};
-  eta.evident = true;
+  eta.evident = space.conforming();  // the proof is for continuous elements
   eta.total = step.bound();
   eta.discretization = std::sqrt(length * sum[of_disc]) + N + 2 * R + std::sqrt(length * sum[of_rest]) +
                        std::sqrt(length * std::abs(together - sum[contact_nodes]));

@@ -100,7 +100,10 @@ class TwoPhaseEvolution final : public Evolution {
         problem_(flow_, FlowScales(flow_.laws(), reference_pressure(flow_, *initial_)), linear, initial_),
         balance_(flow_),
         probes_(flow_.grid(), probes),
-        rate_of_pressures_(rate_of_pressures(flow_, problem_.scales())) {}
+        rate_of_pressures_(rate_of_pressures(flow_, problem_.scales())),
+        jumps_(scene.jumps) {
+    require_definite_pressure(scene);
+  }
 
   const core::Comm& comm() const override { return flow_.grid().comm; }
   GlobalIndex cells() const override { return flow_.grid().global_cells; }
@@ -109,6 +112,7 @@ class TwoPhaseEvolution final : public Evolution {
     return {unknowns, unknowns, problem_.nonzeros()};
   }
 
+  std::vector<double> jumps() const override { return jumps_; }
   Teuchos::RCP<Vector> initial() override { return Teuchos::rcp(new Vector(*initial_, Teuchos::Copy)); }
   void begin(const TimeStep& step, const Vector& before) override {
     const core::Region region("assembly");
@@ -225,6 +229,21 @@ class TwoPhaseEvolution final : public Evolution {
  private:
   static constexpr const char* of_before = " before";
 
+  /// Without gas and without a part of the boundary where it is given, the pressure of incompressible water has no level. Collective.
+  void require_definite_pressure(const scene::TwoPhaseScene& scene) const {
+    for (const auto& [tag, part] : scene.boundary)
+      if (part.kind == scene::FlowBoundaryKind::state) return;
+    double most = 0;
+    {
+      const auto x = algebra::host_view(std::as_const(*initial_));
+      for (LocalIndex K = 0; K < flow_.grid().owned_cells; ++K) most = std::max(most, x(unknowns_per_cell * K + gas_saturation));
+    }
+    if (comm().max(most) > 0) return;
+    throw core::InputError(
+        "scene/flow/boundary: no part has kind = state and there is no gas in the beginning, so nothing says what the pressure is; write "
+        "kind = state somewhere, or initial/s_g above 0 in some place.");
+  }
+
   void add_blocks(const std::string& suffix, const Vector& X, std::vector<output::CheckpointBlock>& blocks) const {
     const auto x = algebra::host_view(X);
     for (int u = 0; u < unknowns_per_cell; ++u) {
@@ -255,6 +274,7 @@ class TwoPhaseEvolution final : public Evolution {
   TwoPhaseBalance balance_;
   TwoPhaseProbes probes_;
   double rate_of_pressures_;
+  std::vector<double> jumps_;
   Teuchos::RCP<const Vector> before_;       ///< X^{n-1} of the step begun
   Teuchos::RCP<const Vector> before_last_;  ///< at the beginning of the last step accepted, whose length is last_length_ [s]; null: none
   double last_length_ = 0;

@@ -8,6 +8,7 @@ namespace {
 
 constexpr double injected = 5.57e-6;                     // hydrogen [kg/(m^2 year)]
 constexpr double end_of_injection = 5e5;                 // years
+constexpr double end_of_source = 500;                    // years
 constexpr double P_0 = 1e6;                              // Pa
 constexpr double height_2d = 20, height_of_column = 20;  // m
 
@@ -22,6 +23,7 @@ FieldPtr hydrostatic(double rho_w, double g, double top, Up up) {
 /// Water at rest, which hydrogen enters on the left; the right side is held.
 void inject(TwoPhaseScene& scene, const FieldPtr& P, const FieldPtr& hydrogen) {
   scene.time_unit = "year";
+  scene.jumps = {end_of_injection};
   scene.initial = water_at(P);
   FlowBoundary& left = scene.boundary["left"];
   left.kind = FlowBoundaryKind::flux;
@@ -50,7 +52,8 @@ void closed_column(TwoPhaseScene& scene) {
   scene.initial = {formula([=](double x, double) { return in_cap(x) ? 0.01 : 0.0; }),
                    hydrostatic(scene.medium.density_water, -scene.gravity[0], height_of_column, [](double x, double) { return x; }),
                    formula([=](double x, double) { return in_cap(x) ? 1e-4 : 3e-5; })};
-  scene.hydrogen_source = formula([](double x, double, double t) { return x < 1 && t < 500 ? 2e-5 : 0.0; });
+  scene.hydrogen_source = formula([](double x, double, double t) { return x < 1 && t < end_of_source ? 2e-5 : 0.0; });
+  scene.jumps = {end_of_source};
 }
 
 }  // namespace

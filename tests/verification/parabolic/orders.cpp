@@ -91,7 +91,7 @@ TEST(FarOrders, is_1_in_time) {
 }
 
 /// The multiplier jumps at the free boundary: 1.5 is what degrees above 1 can reach.
-TEST(Orders, is_above_1_4_where_the_multiplier_jumps) { EXPECT_GE(mean_order(MethodName::fem, 2, 1, 4), 1.3); }
+TEST(Orders, is_above_1_3_where_the_multiplier_jumps) { EXPECT_GE(mean_order(MethodName::fem, 2, 1, 4), 1.3); }
 
 TEST(FarOrders, is_above_1_4_where_the_multiplier_jumps) {
   for (const int degree : {2, 3}) {

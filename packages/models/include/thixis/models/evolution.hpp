@@ -58,6 +58,8 @@ class Evolution {
 
   /// X^0 at time 0; its multipliers may be 0.
   virtual Teuchos::RCP<algebra::Vector> initial() = 0;
+  /// Times at which data jump, in the unit of the deck: steps end there.
+  virtual std::vector<double> jumps() const { return {}; }
   /// Sets up problem() for a step. What does not depend on the length of the step or on the data at its end is kept.
   virtual void begin(const TimeStep& step, const algebra::Vector& before) = 0;
   /// Of the step begun.
