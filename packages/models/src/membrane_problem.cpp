@@ -38,6 +38,12 @@ struct CloseGap {
     if (u.extent(1) == 1) u(l, 0) = psi(l, 0);
     else u(l, 0) = u(l, 1) = theta1 * u(l, 0) + theta2 * u(l, 1);
   }
+  /// Leaves a gap.
+  KOKKOS_FUNCTION void operator()(int l, double size) const {
+    (*this)(l);
+    u(l, 0) += u.extent(1) == 1 ? size : theta2 * size;
+    if (u.extent(1) == 2) u(l, 1) -= theta1 * size;
+  }
 };
 
 }  // namespace
@@ -133,14 +139,22 @@ void MembraneProblem::settle(Fields& x) const {
       });
 }
 
-void MembraneProblem::make_admissible(Fields& x) const {
-  settle(x);
+void MembraneProblem::make_admissible(const Fields& before, Fields& x) const {
+  Vector scale(membranes_.points()), gap_before(membranes_.points());
+  scaling(scale);
+  gap(membranes_, before.u, gap_before);
+  const auto s = std::as_const(scale).getLocalViewDevice(Tpetra::Access::ReadOnly);
+  const auto K = std::as_const(gap_before).getLocalViewDevice(Tpetra::Access::ReadOnly);
+  const auto G = before.lambda.getLocalViewDevice(Tpetra::Access::ReadOnly);
   const auto lambda = x.lambda.getLocalViewDevice(Tpetra::Access::ReadWrite);
   const CloseGap close(membranes_, x.u);
   Kokkos::parallel_for(
       "thixis::models::make_admissible", Range(0, lambda.extent_int(0)), KOKKOS_LAMBDA(int l) {
-        if (lambda(l, 0) < 0) lambda(l, 0) = 0;
-        if (close.gap(l) < 0) close(l);
+        const bool stays_free = K(l, 0) > s(l, 0) * G(l, 0) && close.gap(l) > -K(l, 0);
+        if (stays_free || close.gap(l) > s(l, 0) * lambda(l, 0) || lambda(l, 0) < 0) lambda(l, 0) = 0;
+        const double least = stays_free && K(l, 0) > 0 ? K(l, 0) / 2 : 0;
+        if (lambda(l, 0) > 0) close(l);
+        else if (close.gap(l) < least) close(l, least);
       });
 }
 

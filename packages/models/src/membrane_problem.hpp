@@ -29,8 +29,10 @@ class MembraneProblem final : public complementarity::Problem {
   /// Takes the round-off of the linear solver out of a solution: lambda_l = 0 at free points, no gap at contact points (K_l <= s_l G_l), so
   /// that interpolation meets exact zeros.
   void settle(Fields& x) const;
-  /// As settle, and what is below zero then is cut: the multiplier to 0, a gap closed. Complementary at every point.
-  void make_admissible(Fields& x) const;
+  /// Makes x, extrapolated from `before`, complementary at every point: as settle, and what is below zero is cut. Points that were free
+  /// before stay so, with half the gap that they had at least, unless the gap closes in the first half of the step: Newton-min adds points
+  /// to the contact zone at once, but takes back a zone that is too large by one layer of points a step.
+  void make_admissible(const Fields& before, Fields& x) const;
   /// Closes the gap (membranes: at the mean theta1 u1 + theta2 u2) where lambda_l > 0, for nodal multipliers. Interpolation leaves points
   /// along the edge of the contact zone with a gap and a multiplier; where the data are flat there, beginning with them free would make the
   /// zone overshoot, and Newton-min takes that back by one layer of points a step.

@@ -86,7 +86,7 @@ class ParabolicEvolution final : public Evolution {
     const double ratio = step_.length() / last_length_;
     X.update(1 + ratio, *X_before_, -ratio, *before_last_, 0);
     Fields x = on_mesh_->fields(X);
-    on_mesh_->problem().make_admissible(x);
+    on_mesh_->problem().make_admissible(on_mesh_->fields(*X_before_), x);
     join(x, X);
     return true;
   }
