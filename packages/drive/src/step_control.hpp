@@ -9,9 +9,9 @@ namespace thixis::drive {
 
 /// How long the next step of time is.
 ///
-/// Steps end at marks: the multiples of time/step (not where the estimate controls the steps), the times of time/also and those at which data of the scene
-/// jump, and time/end. A step
-/// that fails is cut to a half; those behind it grow by at most time/growth until they reach the marks again.
+/// Steps end at marks: the multiples of time/step (not where the estimate controls the steps), the times of time/also and those at which
+/// data of the scene jump, and time/end. A step that fails is cut to a half; those behind it grow by at most time/growth until they reach
+/// the marks again.
 ///
 /// With time/adaptive the time part of the estimate of a step is to be half of its space part. Their ratio is proportional to the length,
 /// which the next step takes from that: at most growth times longer, at least half as long. A step with four times the ratio is too long
@@ -43,7 +43,7 @@ class StepControl {
 
   const TimeParams& params_;
   std::vector<double> also_;  ///< of the deck and of the scene
-  double length_;  ///< wanted for the next step
+  double length_;             ///< wanted for the next step
 };
 
 }  // namespace thixis::drive

@@ -72,8 +72,8 @@ class BoundSoFar {
   bool every_step_ = true, any_step_ = false;
 };
 
-/// | sum over the faces of K of |F| rho_w kappa/(mu_l d_F) P_ref / (|K| mass_w) |, over all cells: the part of the equations of water that the
-/// pressure alone makes, without the cancellation between its two sides, per time. Collective.
+/// | sum over the faces of K of |F| rho_w kappa/(mu_l d_F) P_ref / (|K| mass_w) |, over all cells: the part of the equations of water that
+/// the pressure alone makes, without the cancellation between its two sides, per time. Collective.
 double rate_of_pressures(const TwoPhaseOperator& flow, const FlowScales& scales) {
   const auto grid = fv::on_host(flow.grid());
   const TwoPhaseLaws& laws = flow.laws();
@@ -84,7 +84,8 @@ double rate_of_pressures(const TwoPhaseOperator& flow, const FlowScales& scales)
       const LocalIndex F = grid.cell_faces(f);
       if (grid.face_cells(F, 1) >= 0) conductance += grid.face_area(F) / grid.face_distance(F);
     }
-    const double rate = conductance * laws.rho_w * laws.permeability / laws.viscosity_l * scales.pressure / (grid.volume(K) * scales.mass[water]);
+    const double rate =
+        conductance * laws.rho_w * laws.permeability / laws.viscosity_l * scales.pressure / (grid.volume(K) * scales.mass[water]);
     square += rate * rate;
   }
   return std::sqrt(flow.grid().comm.sum(square));
@@ -123,9 +124,7 @@ class TwoPhaseEvolution final : public Evolution {
   }
   complementarity::Problem& problem() override { return problem_; }
   /// A unit in the last place of the pressures, in the equations of water.
-  double round_off() const override {
-    return std::numeric_limits<double>::epsilon() * problem_.step().length * rate_of_pressures_;
-  }
+  double round_off() const override { return std::numeric_limits<double>::epsilon() * problem_.step().length * rate_of_pressures_; }
   bool predict(Vector& X) override {
     if (before_last_.is_null()) return false;
     Tpetra::deep_copy(X, *predicted(flow_, *before_, *before_last_, problem_.step().length / last_length_));

@@ -82,7 +82,7 @@ struct TwoPhaseScene {
   CapillaryLaw capillary_law = CapillaryLaw::van_genuchten;
   std::array<double, 2> gravity = {0, 0};  ///< g [m/s^2]
   FlowState initial;
-  std::vector<double> jumps;                    ///< times at which rates jump, in time_unit: steps end there
+  std::vector<double> jumps;                     ///< times at which rates jump, in time_unit: steps end there
   FieldPtr water_source, hydrogen_source;        ///< kg per m^3 and unit of time
   std::map<std::string, FlowBoundary> boundary;  ///< by tag; no flow through the others
 };
