@@ -106,8 +106,9 @@ std::string FollowEvolution::stop(const TimePosition& at, double next_length, co
                                   const algebra::Vector& X) const {
   const int signal = Interrupt::asked(evolution.comm());
   const int every = params_.output.checkpoint_every;
+  if (at.time >= params_.time->end) return "";  // the run is done, and writes its last checkpoint itself
   if (signal != 0 || (every > 0 && at.step % every == 0)) save(at, next_length, evolution, X);
-  return signal == 0 || at.time >= params_.time->end ? "" : fmt::format("told to end by {}", Interrupt::name(signal));
+  return signal == 0 ? "" : fmt::format("told to end by {}", Interrupt::name(signal));
 }
 
 void FollowEvolution::retry(const TimePosition& at, double length, const std::string& why, double next) const {
@@ -115,32 +116,30 @@ void FollowEvolution::retry(const TimePosition& at, double length, const std::st
             why, next);
 }
 
-void FollowEvolution::newton(const TimePosition& at, double end, const complementarity::NewtonRecord& record) {
-  log::detail("{:>10} {:>3}{:>38}{:>10}{:>13.4e}{}", "Newton", record.step, record.linear_iterations, record.active, record.residual,
-              estimate_columns(record.estimate));
+output::HistoryRow FollowEvolution::row_within(const TimePosition& at, double end, int newton, int linear, double residual,
+                                               const std::optional<complementarity::Estimate>& eta) const {
   output::HistoryRow row;
   row.time_step = at.step + 1;
   row.time = end;
-  row.newton = record.step;
-  row.linear = record.linear_iterations;
+  row.newton = newton;
+  row.linear = linear;
+  row.residual = residual;
+  set_estimate(row, eta);
+  row.seconds = seconds();
+  return row;
+}
+
+void FollowEvolution::newton(const TimePosition& at, double end, const complementarity::NewtonRecord& record) {
+  log::detail("{:>10} {:>3}{:>38}{:>10}{:>13.4e}{}", "Newton", record.step, record.linear_iterations, record.active, record.residual,
+              estimate_columns(record.estimate));
+  output::HistoryRow row = row_within(at, end, record.step, record.linear_iterations, record.residual, record.estimate);
   row.active = record.active;
   row.changed = record.changed;
-  row.residual = record.residual;
-  set_estimate(row, record.estimate);
-  row.seconds = seconds();
   history_.append(row);
 }
 
 void FollowEvolution::check(const TimePosition& at, double end, const complementarity::LinearRecord& record) {
-  output::HistoryRow row;
-  row.time_step = at.step + 1;
-  row.time = end;
-  row.newton = record.step;
-  row.linear = record.iteration;
-  row.residual = record.residual;
-  set_estimate(row, record.estimate);
-  row.seconds = seconds();
-  history_.append(row);
+  history_.append(row_within(at, end, record.step, record.iteration, record.residual, record.estimate));
 }
 
 }  // namespace thixis::drive

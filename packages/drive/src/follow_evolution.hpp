@@ -27,6 +27,9 @@ class FollowEvolution {
   void begin_table() const;
   void step(const StepRecord& record, const models::Evolution& evolution, const algebra::Vector& X,
             const complementarity::ActiveSet& active);
+  /// A row of the history within a step that ends at `end`.
+  output::HistoryRow row_within(const TimePosition& at, double end, int newton, int linear, double residual,
+                                const std::optional<complementarity::Estimate>& eta) const;
   void newton(const TimePosition& at, double end, const complementarity::NewtonRecord& record);
   void check(const TimePosition& at, double end, const complementarity::LinearRecord& record);
   void retry(const TimePosition& at, double length, const std::string& why, double next) const;

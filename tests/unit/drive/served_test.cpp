@@ -73,7 +73,8 @@ TEST(Expectations, judge_bound_and_effectivity) {
   outcome.estimate->total = 0.09;
   EXPECT_TRUE(missed(expect, found(outcome)).empty());
   outcome.estimate->total = 0.11;
-  EXPECT_EQ(missed(expect, found(outcome)), (std::vector<std::string>{"bound 0.11 is above 0.1", "effectivity 2.2 is not between 1 and 2"}));
+  EXPECT_EQ(missed(expect, found(outcome)),
+            (std::vector<std::string>{"bound 0.11 is above 0.1", "effectivity 2.2 is not between 1 and 2"}));
   outcome.estimate->total = 0.04;
   EXPECT_EQ(missed(expect, found(outcome)), std::vector<std::string>{"effectivity 0.8 is not between 1 and 2"});
 }
