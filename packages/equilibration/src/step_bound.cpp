@@ -111,6 +111,7 @@ struct StepBound::Impl : BoundParts {
   // since the start
   Square all;
   double disc2 = 0, lin2 = 0, alg2 = 0;
+  complementarity::Promise promise = complementarity::Promise::guaranteed;  ///< the weakest of all steps
 
   Impl(const method::PolynomialSpace& of, const ContactProblem& contact, const mesh::Hierarchy& hierarchy, int level,
        std::optional<double> constant)
@@ -322,6 +323,7 @@ void StepBound::Impl::sum_up() {
   eta = {};
   eta.evident = space.conforming();  // the proof is for continuous elements
   eta.total = step.bound();
+  eta.promise = complementarity::Promise::up_to_quadrature;
   eta.discretization = std::sqrt(length * sum[of_disc]) + N + 2 * R + std::sqrt(length * sum[of_rest]) +
                        std::sqrt(length * std::abs(together - sum[contact_nodes]));
   eta.linearization = std::sqrt(length * sum[of_lin]) + std::sqrt(length * sum[of_nodes]) + std::sqrt(length * sum[contact_nodes]);
@@ -473,6 +475,7 @@ void StepBound::accept() {
   in.disc2 += squared(in.eta.discretization - 2 * in.step.remainder);
   in.lin2 += squared(in.eta.linearization);
   in.alg2 += squared(in.eta.algebraic);
+  in.promise = weakest(in.promise, in.eta.promise);
 }
 
 complementarity::Estimate StepBound::so_far() const {
@@ -482,18 +485,19 @@ complementarity::Estimate StepBound::so_far() const {
   eta.discretization = std::sqrt(in.disc2) + 2 * in.all.remainder;
   eta.linearization = std::sqrt(in.lin2);
   eta.algebraic = std::sqrt(in.alg2);
+  eta.promise = in.promise;
   return eta;
 }
 
 const std::vector<std::string>& StepBound::names_of_sums() {
-  static const std::vector<std::string> names = {"bound", "bound_remainder", "bound_discretization", "bound_linearization",
-                                                 "bound_algebraic"};
+  static const std::vector<std::string> names = {"bound",           "bound_remainder", "bound_discretization", "bound_linearization",
+                                                 "bound_algebraic", "bound_promise"};
   return names;
 }
 
 std::map<std::string, double> StepBound::sums() const {
   const Impl& in = *impl_;
-  const double values[] = {in.all.energy, in.all.remainder, in.disc2, in.lin2, in.alg2};
+  const double values[] = {in.all.energy, in.all.remainder, in.disc2, in.lin2, in.alg2, static_cast<double>(in.promise)};
   std::map<std::string, double> sums;
   for (std::size_t i = 0; i < names_of_sums().size(); ++i) sums[names_of_sums()[i]] = values[i];
   return sums;
@@ -501,8 +505,10 @@ std::map<std::string, double> StepBound::sums() const {
 
 void StepBound::restore(const std::map<std::string, double>& sums) {
   Impl& in = *impl_;
-  double* const values[] = {&in.all.energy, &in.all.remainder, &in.disc2, &in.lin2, &in.alg2};
+  double promise = 0;
+  double* const values[] = {&in.all.energy, &in.all.remainder, &in.disc2, &in.lin2, &in.alg2, &promise};
   for (std::size_t i = 0; i < names_of_sums().size(); ++i) *values[i] = sums.at(names_of_sums()[i]);
+  in.promise = static_cast<complementarity::Promise>(promise);
 }
 
 GuaranteedBound::Fluxes StepBound::fluxes(int alpha) const {
