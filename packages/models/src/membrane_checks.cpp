@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "degree_check.hpp"
 #include "thixis/core/error.hpp"
 #include "thixis/mesh/host.hpp"
 #include "thixis/method/quadrature.hpp"
@@ -229,6 +230,7 @@ void check_functions(const scene::MembraneScene& scene, const std::array<scene::
   check_jumps(scene, boundary, mesh);
   check_initial(initial, mesh);
   if (scene.name == "data") check_data(scene, method, mesh);
+  check_degrees(scene, boundary, mesh);
 }
 
 void check_field_names(const scene::MembraneScene& scene, const std::vector<std::string>& names) {
