@@ -45,6 +45,11 @@ std::string Frames::path(int frame) const { return (fs::path(folder_) / name(fra
 void Frames::make_folder() const {
   const fs::path place = fs::path(folder_) / frames_folder;
   std::error_code error;
+  if (fs::is_symlink(place, error))
+    throw core::FileError(
+        fmt::format("The fields can not be written: '{}' is a link, and nothing is written through links; remove it, or "
+                    "name another folder by output/directory in the deck or by --output.",
+                    place.string()));
   fs::create_directories(place, error);
   if (error) throw core::FileError(fmt::format("The folder '{}' can not be made: {}.", place.string(), error.message()));
 }
