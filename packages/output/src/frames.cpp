@@ -78,6 +78,8 @@ StoredFrame Frames::read(int frame, int mesh_before) const {
   const std::string place = path(frame), damaged = can_not_go_on(place, "damaged");
   std::error_code unknown;
   if (!fs::exists(place, unknown)) throw core::FileError(can_not_go_on(place, "missing"));
+  core::RegularFile sealed(place);
+  if (!sealed.open() || look_at_seal(sealed, seal()).state != SealState::whole) throw core::FileError(damaged);
   const Hdf5Reader file(place, damaged);
   const std::string fields = fmt::format("/fields_{}", frame), mesh = fmt::format("/mesh_{}", frame);
   StoredFrame stored;
