@@ -128,7 +128,7 @@ def sizes():
     thixis("check", TIME, *with_settings(time__smallest="1e-30"), expect=2, says="lost among the digits")
     thixis("check", TIME, *with_settings(time__step="1e-6", time__end="1"))
     deep = scratch / "deep.xml"
-    for depth in (8000, 500000):
+    for depth in (8000, 200000):
         deep.write_text('<ParameterList name="a">' * depth + "</ParameterList>" * depth)
         for verb in ("check", "run"):
             thixis(verb, deep, expect=2, says="the lists are nested too deep")
@@ -224,14 +224,12 @@ def forged():
                 def with_value(file):
                     file["attributes"].attrs[name] = value
                 return with_value
-            restarted(folder, change(-2147483646.0), 5, "is damaged", seal=False)
-            values = [float("nan"), float("inf"), -2147483646.0] + ([1e300] if name in COUNTED[:-4] else [])
+            values = [float("nan")] + ([-2147483646.0] if name in COUNTED else []) + ([1e300] if name in COUNTED[:3] else [])
             for value in values:
-                if abs(value) < float("inf") and name not in COUNTED:
-                    continue  # a sum of anything
                 printed = restarted(folder, change(value), (2, 5))
                 assert any(words in printed for words in ("is damaged", "is at time", "belongs to")), (name, value, printed)
-        for level in (-2, -2147483648, 2147483648, 1 << 40):
+        restarted(folder, change(3.0), 5, "is damaged", seal=False)
+        for level in (-2, 1 << 40):
             def with_level(file):
                 file.attrs.create("level", level, dtype="i8")
             restarted(folder, with_level, (2, 5))
