@@ -118,6 +118,10 @@ def mesh_file():
     a, b = summary("cut"), summary("whole")
     assert a["exit_code"] == 0 and a["newton_iterations"] == b["newton_iterations"]
     assert abs(a["energy_norm"] - b["energy_norm"]) <= 1e-10 * b["energy_norm"]
+    # what has taken the place of the mesh is read as a mesh, and never executed
+    (decks / "plate.msh").write_text('/*\n$MeshFormat\n2.2 0 8\n$EndMeshFormat\n*/\nSystemCall "touch executed";\n')
+    printed = thixis("restart", "../cut/checkpoint.h5", *GO_ON, folder=calls, expect=2)
+    assert "is not a Gmsh mesh" in printed and not list(scratch.rglob("executed")), printed
 
 
 def every():

@@ -9,6 +9,7 @@
 
 #include "exact_gradient.hpp"
 #include "thixis/core/error.hpp"
+#include "thixis/mesh/groups.hpp"
 #include "thixis/mesh/host.hpp"
 #include "thixis/method/quadrature.hpp"
 #include "thixis/reference/quadrature.hpp"
@@ -159,12 +160,12 @@ void check_boundary(const scene::MembraneScene& scene, const Boundary& boundary,
       for (std::size_t i = 0; i < upper.size(); ++i) size = std::max({size, std::abs(upper[i]), std::abs(lower[i])});
       for (std::size_t i = 0; i < upper.size(); ++i)
         if (upper[i] < lower[i] - 1e-12 * size)
-          throw core::InputError(fmt::format(
-              "{}: on the boundary '{}' {}: {} = {:.6g} < {} = {:.6g} at ({:.6g}, {:.6g}){}; give boundary data with {} >= {}.",
-              scene.boundary.count(mesh.tags[tag]) > 0 ? "scene/boundary/" + mesh.tags[tag] : "scene/data/" + named(scene, "g", 0),
-              mesh.tags[tag], one ? "the membrane lies below the obstacle" : "the upper membrane lies below the lower one",
-              named(scene, "g", 0), upper[i], one ? "psi" : "g2", lower[i], at.x[i], at.y[i], t > 0 ? fmt::format(", t = {:.6g}", t) : "",
-              named(scene, "g", 0), one ? "psi" : "g2"));
+          throw core::InputError(
+              fmt::format("{}: on the boundary '{}' {}: {} = {:.6g} < {} = {:.6g} at ({:.6g}, {:.6g}){}; give boundary data with {} >= {}.",
+                          boundary.named[tag].empty() ? "scene/data/" + named(scene, "g", 0) : "scene/boundary/" + boundary.named[tag],
+                          mesh.tags[tag], one ? "the membrane lies below the obstacle" : "the upper membrane lies below the lower one",
+                          named(scene, "g", 0), upper[i], one ? "psi" : "g2", lower[i], at.x[i], at.y[i],
+                          t > 0 ? fmt::format(", t = {:.6g}", t) : "", named(scene, "g", 0), one ? "psi" : "g2"));
     }
   });
 }
@@ -198,22 +199,19 @@ void check_order(const scene::FieldPtr (&initial)[2], const method::MethodParams
 }
 
 Boundary boundary_of(const scene::MembraneScene& scene, const mesh::Mesh& mesh) {
-  for (const auto& [tag, condition] : scene.boundary)
-    if (std::find(mesh.tags.begin(), mesh.tags.end(), tag) == mesh.tags.end()) {
-      std::string names;
-      for (const auto& name : mesh.tags) names += (names.empty() ? "" : ", ") + name;
-      throw core::InputError("scene/boundary/" + tag + ": the mesh has no such part of the boundary; write one of: " + names + ".");
-    }
+  std::vector<std::string> names;
+  for (const auto& [name, condition] : scene.boundary) names.push_back(name);
   Boundary boundary;
-  for (const auto& tag : mesh.tags) {
-    const auto given = scene.boundary.find(tag);
+  boundary.named = mesh::named_groups(mesh.tags, names, "scene/boundary");
+  for (std::size_t tag = 0; tag < mesh.tags.size(); ++tag) {
+    const auto given = scene.boundary.find(boundary.named[tag]);
     const auto& condition = given == scene.boundary.end() ? scene.default_boundary : given->second;
     const bool dirichlet = condition.kind == scene::BoundaryKind::dirichlet;
     const bool known = condition.value[0] && (scene.count == 1 || condition.value[1]);
     if (dirichlet && !known)
       throw core::InputError(fmt::format(
-          "scene/boundary/{0}: nothing is said about this part of the boundary; give {1} there, or {1} in scene/data for all of it.", tag,
-          scene.count == 1 ? "g" : "g1 and g2"));
+          "scene/boundary/{0}: nothing is said about this part of the boundary; give {1} there, or {1} in scene/data for all of it.",
+          boundary.named[tag].empty() ? mesh.tags[tag] : boundary.named[tag], scene.count == 1 ? "g" : "g1 and g2"));
     boundary.dirichlet.push_back(dirichlet);
     for (int alpha = 0; alpha < scene.count; ++alpha) {
       boundary.values[alpha].dirichlet.push_back(dirichlet ? condition.value[alpha] : nullptr);

@@ -12,6 +12,7 @@ namespace thixis::models {
 
 /// The scene's conditions in the order of the mesh's tags.
 struct Boundary {
+  std::vector<std::string> named;  ///< by which group the deck speaks of each part; empty: by none
   std::vector<bool> dirichlet;
   method::BoundaryValues values[2];
 };

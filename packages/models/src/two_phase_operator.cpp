@@ -6,6 +6,7 @@
 
 #include "thixis/core/error.hpp"
 #include "thixis/core/text.hpp"
+#include "thixis/mesh/groups.hpp"
 
 namespace thixis::models {
 namespace {
@@ -45,13 +46,13 @@ Places centres(const fv::Grid& grid) {
   return places;
 }
 
-/// Midpoints of the faces of one part of the boundary.
+/// Midpoints of the faces of the boundary that lie in a group.
 Places part_of_boundary(const fv::Grid& grid, const std::string& name) {
   const auto tag = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), grid.face_tag);
   const auto centre = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), grid.face_centre);
   Places places;
   for (LocalIndex F = 0; F < grid.faces; ++F)
-    if (tag(F) >= 0 && grid.tags[tag(F)] == name) places.add(F, centre(F, 0), centre(F, 1));
+    if (tag(F) >= 0 && mesh::is_in_group(grid.tags[tag(F)], name)) places.add(F, centre(F, 0), centre(F, 1));
   return places;
 }
 
@@ -140,12 +141,11 @@ TwoPhaseOperator::TwoPhaseOperator(fv::Grid grid, const scene::TwoPhaseScene& sc
 void TwoPhaseOperator::set_boundary(const scene::TwoPhaseScene& scene) {
   const auto kind = Kokkos::create_mirror_view(face_kind_);
   Kokkos::deep_copy(kind, FlowBoundaryKind::no_flow);
-  for (const auto& [tag, part] : scene.boundary) {
-    if (std::find(grid_.tags.begin(), grid_.tags.end(), tag) == grid_.tags.end())
-      throw core::InputError(
-          fmt::format("scene/flow/boundary/{}: the mesh has no such part of the boundary; write one of: {}.", tag, core::join(grid_.tags)));
-    for (const LocalIndex F : part_of_boundary(grid_, tag).index) kind(F) = part.kind;
-  }
+  std::vector<std::string> names;
+  for (const auto& [name, part] : scene.boundary) names.push_back(name);
+  mesh::named_groups(grid_.tags, names, "scene/flow/boundary");
+  for (const auto& [name, part] : scene.boundary)
+    for (const LocalIndex F : part_of_boundary(grid_, name).index) kind(F) = part.kind;
   Kokkos::deep_copy(face_kind_, kind);
 }
 
