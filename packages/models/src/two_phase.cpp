@@ -15,6 +15,7 @@
 #include "two_phase_predictor.hpp"
 #include "two_phase_probes.hpp"
 #include "two_phase_problem.hpp"
+#include "two_phase_verifier.hpp"
 
 namespace thixis::models {
 namespace {
