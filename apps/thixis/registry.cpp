@@ -66,6 +66,7 @@ std::unique_ptr<models::Model> make_two_phase(const drive::RunParams& params) {
   const double seconds = drive::seconds_in(time.unit);
   models::TwoPhaseBoundParams bound;
   bound.measure = params.stopping.measure;
+  bound.adaptive = params.stopping.rule == complementarity::StoppingRule::adaptive;
   if (params.stopping.time_scale) bound.time_scale = *params.stopping.time_scale * seconds;
   return models::two_phase(std::move(scene), params.linear, seconds, params.output.probes, bound);
 }

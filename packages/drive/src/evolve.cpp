@@ -101,12 +101,30 @@ class Run {
                                         [this](const Vector& iterate) { return evolution_.estimate(iterate); });
     out_.at.newton_iterations += out_.last.steps;
     out_.at.linear_iterations += out_.last.linear_iterations;
-    if (!out_.last.converged || !std::isfinite(algebra::norm2(X))) return false;
+    if (!out_.last.converged || !std::isfinite(algebra::norm2(X)) || objected(X)) return false;
     if (params_.estimated()) {
       const core::Region region("estimate");
       eta_ = out_.last.estimate ? *out_.last.estimate : evolution_.estimate(X);
     }
     return true;
+  }
+
+  /// Whether the model refuses what the nonlinear solver takes for a solution.
+  bool objected(const Vector& X) {
+    const core::Region region("verification");
+    const bool conditions = params_.stopping.rule != complementarity::StoppingRule::adaptive;
+    const std::string why = evolution_.objection(X, kkt_tolerance(complementarity::KktData()), conditions);
+    if (why.empty()) return false;
+    out_.last.converged = false;
+    out_.last.why = why;
+    return true;
+  }
+
+  /// Of the deck, or what the tolerance of the nonlinear solver allows.
+  double kkt_tolerance(const complementarity::KktData& data) {
+    const double residual = params_.stopping.nonlinear_tolerance * evolution_.problem().reference_norm() +
+                            params_.stopping.absolute_tolerance + evolution_.round_off();
+    return params_.stopping.kkt_tolerance.value_or(data.allowed(residual));
   }
 
   bool cut(const models::TimeStep& step) {
@@ -177,10 +195,8 @@ class Run {
   void verify() {
     const core::Region region("verification");
     const auto data = evolution_.kkt_data(*out_.X);
-    const double residual = params_.stopping.nonlinear_tolerance * evolution_.problem().reference_norm() +
-                            params_.stopping.absolute_tolerance + evolution_.round_off();
     out_.kkt = complementarity::verify(data);
-    out_.kkt_tolerance = params_.stopping.kkt_tolerance.value_or(data.allowed(residual));
+    out_.kkt_tolerance = kkt_tolerance(data);
   }
 
   complementarity::NewtonObserver on_step(double end) {

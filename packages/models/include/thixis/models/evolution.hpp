@@ -75,6 +75,9 @@ class Evolution {
   virtual CellEstimates cell_estimates() const = 0;                     ///< of the last call of `estimate`
   virtual std::optional<StepErrors> step_errors() const { return {}; }  ///< likewise; nothing where they are not known apart
 
+  /// Why X, which solves the step for the nonlinear solver, may not end it, in a sentence that says what to try; empty: it may.
+  /// `tolerance`: of the verifier; `conditions`: whether balances and contact conditions count, which the rule adaptive leaves open.
+  virtual std::string objection(const algebra::Vector&, double /*tolerance*/, bool /*conditions*/) { return {}; }
   /// The step ends with X. If `estimate` was called since begin(), its last call was at X, and the bound so far takes it in.
   virtual void accept(const algebra::Vector& X) = 0;
 

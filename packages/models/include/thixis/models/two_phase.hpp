@@ -12,6 +12,8 @@ namespace thixis::models {
 struct TwoPhaseBoundParams {
   complementarity::Measure measure = complementarity::Measure::residual;
   double time_scale = 2500 * 31557600.;  ///< alpha [s]
+  /// The rule of the solver leaves errors of linearization that count as small beside others: they are not owed to the next step.
+  bool adaptive = false;
 };
 
 /// Two-phase flow of water and hydrogen by cell-centred finite volumes and backward Euler (docs/methods/two_phase.md).
