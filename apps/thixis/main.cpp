@@ -12,6 +12,7 @@
 #include "thixis/core/assert.hpp"
 #include "thixis/core/deck.hpp"
 #include "thixis/core/log.hpp"
+#include "thixis/core/memory.hpp"
 #include "thixis/core/text.hpp"
 #include "thixis/drive/run.hpp"
 #include "thixis/output/checkpoint.hpp"
@@ -185,16 +186,19 @@ int main(int argc, char** argv) {
   thixis::core::enable_floating_point_traps();
 #endif
   const thixis::core::Comm comm;
+  thixis::core::Error last(thixis::core::ExitCode::internal, "");
   try {
     return static_cast<int>(thixis::dispatch(static_cast<int>(own.size()), own.data(), comm));
   } catch (const thixis::core::Error& error) {  // thrown on all ranks alike
-    if (comm.root()) fmt::print(stderr, "{}\n", error.what());
+    if (comm.root()) fmt::print(stderr, "{}\n", thixis::core::printable(error.what()));
     return static_cast<int>(error.code());
   } catch (const std::exception& error) {
-    fmt::print(stderr, "thixis: internal error on rank {}: {}\n", comm.rank(), error.what());
+    last = thixis::core::as_error(error);
   } catch (const char* error) {  // thrown by NOX
-    fmt::print(stderr, "thixis: internal error on rank {}: {}\n", comm.rank(), error);
+    last = {thixis::core::ExitCode::internal, error};
   }
-  if (comm.size() > 1) MPI_Abort(comm.mpi(), static_cast<int>(thixis::core::ExitCode::internal));
-  return static_cast<int>(thixis::core::ExitCode::internal);
+  const char* kind = last.code() == thixis::core::ExitCode::internal ? "internal error " : "";
+  fmt::print(stderr, "thixis: {}on rank {}: {}\n", kind, comm.rank(), thixis::core::printable(last.what()));
+  if (comm.size() > 1) MPI_Abort(comm.mpi(), static_cast<int>(last.code()));
+  return static_cast<int>(last.code());
 }

@@ -33,7 +33,7 @@ const core::Schema<NewtonParams>& NewtonParams::schema() {
               "mean, both vanish up to round-off.")
           .choice("scaling", &NewtonParams::scaling, {{"none", Scaling::none}, {"physical", Scaling::physical}},
                   "Compare the gap with the multiplier itself, or with the multiplier scaled to a length.")
-          .parameter("sweeps", &NewtonParams::sweeps, core::at_least(0),
+          .parameter("sweeps", &NewtonParams::sweeps, core::between(0, 10000),
                      "Sweeps of nonlinear smoothing after each undamped step of c-function min, for symmetric methods; if not given, 10 "
                      "with nested "
                      "starts, otherwise none, which is plain Newton-min.");

@@ -1,5 +1,7 @@
 #include "thixis/drive/params.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <sstream>
 
@@ -21,6 +23,20 @@ core::Range above_0_up_to_1() {
   core::Range range = core::between(0, 1);
   range.lower_open = true;
   return range;
+}
+
+/// A run has an end that it can reach, and steps that move the time.
+void check_steps(const TimeParams& params, core::Problems& problems) {
+  const double least = params.adaptive ? params.largest.value_or(params.end) : params.step;
+  if (params.end / least > TimeParams::most_steps)
+    problems.add(params.adaptive ? "largest" : "step",
+                 fmt::format("makes {:.3g} steps until the end at {:g}, and a run may have {:g}; write at least {:.3g}.",
+                             params.end / least, params.end, TimeParams::most_steps, params.end / TimeParams::most_steps));
+  const double resolved = TimeParams::resolution * params.end;
+  for (const auto& [name, length] : {std::pair("step", params.step), std::pair("smallest", params.smallest.value_or(params.step))})
+    if (length < resolved)
+      problems.add(name,
+                   fmt::format("is lost among the digits of the time at the end, {:g}; write at least {:.3g}.", params.end, resolved));
 }
 
 bool of_estimate(const std::string& name) { return std::count(names_of_estimate().begin(), names_of_estimate().end(), name) > 0; }
@@ -88,10 +104,12 @@ const core::Schema<TimeParams>& TimeParams::schema() {
           .parameter("adaptive", &TimeParams::adaptive, "Whether the time part of the error estimate controls the length of the steps.")
           .parameter("also", &TimeParams::also, "Further times at which a step ends, e.g. where data jump.")
           .parameter("smallest", &TimeParams::smallest, core::above(0),
-                     "A step that fails is cut; one below this length ends the run. Not given: 'step' / 2^20.")
+                     "A step that fails is cut; one below this length ends the run. Not given: 'step' / 2^20, or 1e-13 of the end if that "
+                     "is more.")
           .parameter("largest", &TimeParams::largest, core::above(0), "Longest step of adaptive = true; not given: the whole time.")
           .parameter("growth", &TimeParams::growth, core::above(1), "The next step is at most so many times longer.")
           .check([](const TimeParams& params, core::Problems& problems) {
+            check_steps(params, problems);
             if (params.smallest && *params.smallest > params.step) problems.add("smallest", "must not be above 'step'.");
             if (params.smallest && params.largest && *params.smallest > *params.largest)
               problems.add("largest", "must not be below 'smallest'.");

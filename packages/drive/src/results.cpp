@@ -23,7 +23,7 @@ output::FieldData on_cells(const std::string& name, const std::vector<double>& v
 
 }  // namespace
 
-void open(const output::RunDirectory& directory, const RunParams& params, bool goes_on, const core::Comm& comm) {
+void open(output::RunDirectory& directory, const RunParams& params, bool goes_on, const core::Comm& comm) {
   directory.create(comm);
   directory.write_deck(core::to_xml(RunParams::schema(), params), comm);
   comm.on_root([&] { log::open(directory.log(), goes_on ? log::Old::keep : log::Old::overwrite); });

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "checkpoint.hpp"
 #include "follow.hpp"
+#include "sizes.hpp"
 #include "thixis/algebra/tpetra.hpp"
 #include "thixis/core/log.hpp"
 #include "thixis/core/timer.hpp"
@@ -25,9 +27,9 @@ void say_where(const output::StoredCheckpoint& stored) {
 /// How to go on, as a command: with more steps where those were too few.
 std::string invitation(const std::string& checkpoint, const RunParams& params, const Outcome& outcome) {
   const int most = params.newton.max_iterations;
-  const bool too_few = !outcome.solved && outcome.finest.steps >= most;
+  const bool too_few = !outcome.solved && outcome.finest.steps >= most && most <= std::numeric_limits<int>::max() / 2;
   return fmt::format("the last iterate is kept; to go on from it: thixis restart {}{}", checkpoint,
-                     too_few ? fmt::format(" --set \"newton/max iterations={}\"", std::max(50, 2 * most)) : "");
+                     too_few ? fmt::format(" --set \"newton/max iterations={}\"", std::max(50LL, 2LL * most)) : "");
 }
 
 output::Summary summarize(const RunParams& params, const models::Model& model, const Outcome& outcome, const Verdict& verdict,
@@ -80,12 +82,13 @@ core::ExitCode run_stationary(const RunParams& params, const models::StationaryM
     const core::Region region("mesh");
     hierarchy = mesh::build(params.mesh, comm, deck.folder());
   }
+  require_memory(params, static_cast<double>(hierarchy.finest().global_cells), comm);
   // what is wrong in the scene on this mesh shows here, before anything is written
   const bool nested = params.newton.start == complementarity::Start::nested;
   for (const auto& mesh : hierarchy.levels)
     if (nested || &mesh == &hierarchy.finest()) model.check(mesh, params.output.model_names());
 
-  const output::RunDirectory directory(params.output.directory);
+  output::RunDirectory directory(params.output.directory);
   CheckpointFile checkpoint(directory.checkpoint(), params, deck, hierarchy);
   if (stored) {
     replay(*stored, hierarchy, checkpoint);
@@ -94,7 +97,10 @@ core::ExitCode run_stationary(const RunParams& params, const models::StationaryM
   const bool goes_on = stored && same_directory(*stored, directory.path());
   open(directory, params, goes_on, comm);
   introduce(deck, model, comm, versions);
-  if (stored) say_where(*stored);
+  if (stored) {
+    say_where(*stored);
+    say_differences(*stored, params);
+  }
   if (!goes_on) remove_file(checkpoint.path(), comm);
 
   output::History history =

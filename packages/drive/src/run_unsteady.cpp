@@ -148,14 +148,17 @@ core::ExitCode run_unsteady(const RunParams& params, const models::UnsteadyModel
     const core::Region region("mesh");
     evolution = model.evolve(params.mesh, comm, deck.folder(), params.output.model_names());
   }
-  const output::RunDirectory directory(params.output.directory);
+  output::RunDirectory directory(params.output.directory);
   const EvolutionCheckpoint checkpoint(directory.checkpoint(), params, deck);
   const bool goes_on = stored && same_directory(*stored, directory.path());
   const StoredEvolution from = stored ? stored_evolution(*stored) : StoredEvolution{};
   if (stored) check_restart(*stored, from, params, goes_on, *evolution);
   open(directory, params, goes_on, comm);
   introduce(deck, model, comm, versions);
-  if (stored) say_where(from.at);
+  if (stored) {
+    say_where(from.at);
+    say_differences(*stored, params);
+  }
   log::info("{} cells, {} unknowns ({} in the linear system)", evolution->cells(), evolution->sizes().unknowns_all,
             evolution->sizes().unknowns_global);
   if (!goes_on) remove_file(checkpoint.path(), comm);

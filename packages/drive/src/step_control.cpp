@@ -18,10 +18,9 @@ double factor(const models::StepErrors& errors, double least, double most) {
 }  // namespace
 
 double StepControl::next_mark(double t) const {
-  const double slack = round_off * params_.step;
-  double mark = params_.end;
-  for (const double also : also_)
-    if (also > t + slack) mark = std::min(mark, also);
+  const double slack = std::max(round_off * params_.step, TimeParams::resolution * params_.end);
+  const auto also = std::upper_bound(also_.begin(), also_.end(), t + slack);
+  double mark = also == also_.end() ? params_.end : std::min(params_.end, *also);
   if (!params_.adaptive) {
     const double multiple = (std::floor(t / params_.step + round_off) + 1) * params_.step;
     if (multiple < mark - slack) mark = multiple;
@@ -36,7 +35,9 @@ double StepControl::end_of_step(double t) const {
   return t + length_;
 }
 
-double StepControl::smallest() const { return params_.smallest.value_or(params_.step / (1 << 20)); }
+double StepControl::smallest() const {
+  return params_.smallest.value_or(std::max(params_.step / (1 << 20), TimeParams::resolution * params_.end));
+}
 
 bool StepControl::cut(double tried) {
   length_ = tried / 2;

@@ -21,6 +21,7 @@ class StepControl {
   explicit StepControl(const TimeParams& params, std::vector<double> jumps = {})
       : params_(params), also_(std::move(jumps)), length_(std::min(params.step, longest())) {
     also_.insert(also_.end(), params.also.begin(), params.also.end());
+    std::sort(also_.begin(), also_.end());
   }
 
   /// Where the step that begins at t ends.
@@ -42,7 +43,7 @@ class StepControl {
   double longest() const { return params_.adaptive ? params_.largest.value_or(params_.end) : params_.step; }
 
   const TimeParams& params_;
-  std::vector<double> also_;  ///< of the deck and of the scene
+  std::vector<double> also_;  ///< of the deck and of the scene, rising
   double length_;             ///< wanted for the next step
 };
 

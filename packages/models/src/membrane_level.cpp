@@ -119,7 +119,7 @@ Teuchos::RCP<Vector> MembraneLevel::restore(const output::StoredCheckpoint& stor
   const auto ids = space_->unknown_ids();
   const auto fetch = [&](const std::string& name, Vector& v) {
     check_size(stored, name + suffix, static_cast<GlobalIndex>(v.getGlobalLength()));
-    const auto values = stored.fetch(name + suffix, {ids.begin(), ids.begin() + static_cast<std::ptrdiff_t>(v.getLocalLength())});
+    const auto values = stored.fetch_finite(name + suffix, {ids.begin(), ids.begin() + static_cast<std::ptrdiff_t>(v.getLocalLength())});
     const auto out = algebra::host_overwrite(v);
     std::copy(values.begin(), values.end(), out.data());
   };

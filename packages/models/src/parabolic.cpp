@@ -216,15 +216,15 @@ class ParabolicEvolution final : public Evolution {
   Teuchos::RCP<Vector> restore(const output::StoredCheckpoint& stored) override {
     replay(stored);
     auto X = on_mesh_->restore(stored);
-    last_length_ = stored.attribute("last_length");
+    last_length_ = stored.number("last_length", 0);
     before_last_ = last_length_ > 0 ? on_mesh_->restore(stored, of_before) : Teuchos::null;
-    on_mesh_->move_to(stored.attribute("data_time"));
-    squared_error_ = stored.attribute("squared_energy_error");
+    on_mesh_->move_to(stored.number("data_time", 0));
+    squared_error_ = stored.number("squared_energy_error", 0);
     begun_ = open_ = estimated_ = false;
-    bounded_ = stored.attribute("bounded") != 0;
+    bounded_ = stored.count("bounded", 1) != 0;
     restored_bound_.clear();
     for (const std::string& name : equilibration::StepBound::names_of_sums())
-      if (bounded_) restored_bound_[name] = stored.attribute(name);
+      if (bounded_) restored_bound_[name] = stored.number(name);
     if (bound_ && bounded_) bound_->restore(restored_bound_);
     return X;
   }

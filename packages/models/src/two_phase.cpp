@@ -63,9 +63,9 @@ class BoundSoFar {
     for (std::size_t i = 0; i < squares_.size(); ++i) attributes[names[i]] = squares_[i];
   }
   void restore(const output::StoredCheckpoint& stored) {
-    every_step_ = stored.attribute("bound_every_step") != 0;
-    any_step_ = stored.attribute("bound_any_step") != 0;
-    for (std::size_t i = 0; i < squares_.size(); ++i) squares_[i] = stored.attribute(names[i]);
+    every_step_ = stored.count("bound_every_step", 1) != 0;
+    any_step_ = stored.count("bound_any_step", 1) != 0;
+    for (std::size_t i = 0; i < squares_.size(); ++i) squares_[i] = stored.number(names[i], 0);
   }
 
  private:
@@ -213,7 +213,7 @@ class TwoPhaseEvolution final : public Evolution {
             cells()));
     balance_.restore(stored);
     bound_so_far_.restore(stored);
-    last_length_ = stored.attribute("last_length");
+    last_length_ = stored.number("last_length", 0);
     if (last_length_ > 0) before_last_ = fetched(of_before, stored);
     fetch_owed(stored);
     return fetched("", stored);
@@ -250,7 +250,7 @@ class TwoPhaseEvolution final : public Evolution {
     const auto X = Teuchos::rcp(new Vector(flow_.map()));
     const auto x = algebra::host_overwrite(*X);
     for (int u = 0; u < unknowns_per_cell; ++u) {
-      const auto values = stored.fetch(names_of_unknowns()[u] + suffix, owned_ids());
+      const auto values = stored.fetch_finite(names_of_unknowns()[u] + suffix, owned_ids());
       for (LocalIndex K = 0; K < flow_.grid().owned_cells; ++K) x(unknowns_per_cell * K + u) = values[K];
     }
     return X;

@@ -72,7 +72,7 @@ std::map<std::string, double> TwoPhaseBalance::save() const {
 
 void TwoPhaseBalance::restore(const output::StoredCheckpoint& stored) {
   for (int c = 0; c < components; ++c) {
-    const auto read = [&](const char* what) { return stored.attribute(std::string(names[c]) + "_" + what); };
+    const auto read = [&](const char* what) { return stored.number(std::string(names[c]) + "_" + what); };
     accounts_[c] = {read("defect"), read("worst"), read("total"), read("brought"), read("in_place")};
   }
 }

@@ -123,8 +123,8 @@ TEST(history, that_can_not_be_written_is_an_error_on_all_ranks) {
   const std::string absent = folder + "/none/history.csv", path = folder + "/history.csv";
   EXPECT_EQ(sentence_of(core::ExitCode::input_output, [&] { History(absent, comm); }),
             "The file '" + absent + "' can not be written: No such file or directory.");
-  EXPECT_EQ(sentence_of(core::ExitCode::input_output, [&] { History("/dev/full", comm); }),
-            "The file '/dev/full' can not be written: No space left on device.");
+  const std::string device = "The file '/dev/full' can not be written: there is no regular file of this name, and ";
+  EXPECT_EQ(sentence_of(core::ExitCode::input_output, [&] { History("/dev/full", comm); }).substr(0, device.size()), device);
   History history(path, comm);
   const FullDisk full(header.size() + 3);
   EXPECT_EQ(sentence_of(core::ExitCode::input_output, [&] { history.append(full_row()); }),

@@ -42,9 +42,14 @@ struct TimeParams {
   double end = 1;
   bool adaptive = false;           ///< the time part of the estimate controls the steps
   std::vector<double> also;        ///< further times at which a step ends
-  std::optional<double> smallest;  ///< a step that has been cut below it ends the run; not given: step / 2^20
+  std::optional<double> smallest;  ///< a step that has been cut below it ends the run; not given: step / 2^20, at least resolution * end
   std::optional<double> largest;   ///< adaptive: no longer step; not given: the end
   double growth = 2;               ///< the next step after a cut or of an adaptive run is at most so many times longer
+
+  /// Of one length. With more of them multiples of the length could not be told from what round-off makes of them.
+  static constexpr double most_steps = 1e6;
+  /// Of the end: a shorter step hardly moves the time, whose digits end at 1e-16 of it.
+  static constexpr double resolution = 1e-13;
   static const core::Schema<TimeParams>& schema();
 };
 
