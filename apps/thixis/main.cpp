@@ -73,7 +73,8 @@ core::ExitCode restart(const Arguments& arguments, const core::Comm& comm) {
 
 core::ExitCode check(const Arguments& arguments, const core::Comm& comm) {
   return with_deck(core::Deck::read(arguments.deck, comm), arguments,
-                   [](const core::Deck& deck, const drive::RunParams&, const models::Model&) {
+                   [](const core::Deck& deck, const drive::RunParams& params, const models::Model& model) {
+                     drive::check_ahead(params, model);
                      core::log::info("{}: no mistakes found.", deck.file());
                      return core::ExitCode::done;
                    });

@@ -84,7 +84,8 @@ std::unique_ptr<models::Model> make_model(const drive::RunParams& params) {
                                check_mesh);
     case scene::Model::parabolic_membranes:
       refuse_initial(params);
-      return models::parabolic_membranes(scene::membrane_scene(params.scene), make_space, params.method, params.linear, check_mesh);
+      return models::parabolic_membranes(scene::membrane_scene(params.scene), make_space, params.method, params.linear, check_mesh,
+                                         params.stopping.friedrichs);
     default:
       throw core::InputError("scene/model: this version does not serve " + scene::to_text(params.scene.model) +
                              "; write membranes, obstacle, parabolic membranes or two-phase.");

@@ -87,7 +87,10 @@ void FollowEvolution::show(int step, double time, const models::Evolution& evolu
 
 void FollowEvolution::finish(const models::Evolution& evolution, const EvolutionOutcome& outcome) {
   // what was stopped goes on with the frames that it would have had
-  if (outcome.stopped.empty()) show(outcome.at.step, outcome.at.time, evolution, *outcome.X, outcome.last.active_set);
+  if (outcome.stopped.empty()) {
+    estimated_ = estimated_ && outcome.solved;  // what was seen last is an attempt that has failed
+    show(outcome.at.step, outcome.at.time, evolution, *outcome.X, outcome.active);
+  }
   if (fields_) fields_->close();
 }
 
@@ -103,11 +106,13 @@ void FollowEvolution::save(const TimePosition& at, double next_length, const mod
 }
 
 std::string FollowEvolution::stop(const TimePosition& at, double next_length, const models::Evolution& evolution,
-                                  const algebra::Vector& X) const {
+                                  const algebra::Vector& X) {
   const int signal = Interrupt::asked(evolution.comm());
   const int every = params_.output.checkpoint_every;
   if (at.time >= params_.time->end) return "";  // the run is done, and writes its last checkpoint itself
-  if (signal != 0 || (every > 0 && at.step % every == 0)) save(at, next_length, evolution, X);
+  const bool due = every > 0 && at.step % every == 0 && at.step != saved_step_;
+  if (signal != 0 || due) save(at, next_length, evolution, X);
+  if (due) saved_step_ = at.step;
   return signal == 0 ? "" : fmt::format("told to end by {}", Interrupt::name(signal));
 }
 

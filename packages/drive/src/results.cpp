@@ -50,6 +50,7 @@ void set_estimate(output::HistoryRow& row, const std::optional<complementarity::
   row.eta_lin = eta->linearization;
   row.eta_alg = eta->algebraic;
   row.eta_total = eta->total;
+  row.eta_time = eta->time;
 }
 
 void add_estimates(const OutputParams& params, const models::CellEstimates& cells, const output::Grid& grid,
@@ -63,7 +64,7 @@ void add_estimates(const OutputParams& params, const models::CellEstimates& cell
 }
 
 output::SummaryEstimate parts(const complementarity::Estimate& eta) {
-  return {eta.total, eta.discretization, eta.linearization, eta.algebraic, {}};
+  return {eta.total, eta.discretization, eta.linearization, eta.algebraic, {}, eta.time};
 }
 
 output::Summary begin_summary(const RunParams& params, const models::Model& model, const Verdict& verdict, const core::Comm& comm,

@@ -8,6 +8,7 @@
 #include "expectations.hpp"
 #include "follow_evolution.hpp"
 #include "interrupt.hpp"
+#include "step_control.hpp"
 #include "thixis/algebra/tpetra.hpp"
 #include "thixis/core/timer.hpp"
 
@@ -50,11 +51,19 @@ Found found(const models::Evolution& evolution, const EvolutionOutcome& outcome)
   return found;
 }
 
+/// Where most of a bound comes from the lengths of the steps, it says nothing of the mesh.
+std::string time_decides(const complementarity::Estimate& bound) {
+  if (!(bound.time.value_or(0) > 0.7 * bound.total)) return "";
+  return fmt::format(", most of it the error in time, {:.4e}: shorter steps (time/step) make it smaller, a finer mesh does not",
+                     *bound.time);
+}
+
 /// What is known of the error and of the solution, in clauses.
 std::string qualities(const RunParams& params, const models::Evolution& evolution, const EvolutionOutcome& outcome) {
   std::string clauses;
   if (const auto error = evolution.energy_error()) clauses += fmt::format("; energy error {:.4e}", *error);
-  if (const auto bound = evolution.estimate_so_far()) clauses += fmt::format("; {} {:.4e}", evolution.bound_name(), bound->total);
+  if (const auto bound = evolution.estimate_so_far())
+    clauses += fmt::format("; {} {:.4e}", evolution.bound_name(), bound->total) + time_decides(*bound);
   for (const models::Balance& balance : evolution.balances())
     clauses += fmt::format("; {} balanced to {:.1e} in every step", balance.name, balance.worst_step);
   if (outcome.kkt) {
@@ -71,7 +80,7 @@ std::string effort(const TimePosition& at) {
          (at.retries > 0 ? fmt::format(" ({} attempt{} given up)", at.retries, at.retries == 1 ? "" : "s") : "");
 }
 
-Verdict judge(const RunParams& params, const models::Evolution& evolution, const EvolutionOutcome& outcome) {
+Verdict judge(const RunParams& params, const models::Evolution& evolution, const core::Deck& deck, const EvolutionOutcome& outcome) {
   const std::string clauses = fmt::format("{}", fmt::join(missed(params.expect, found(evolution, outcome)), "; "));
   if (outcome.not_wanted) {
     if (!clauses.empty()) return {ExitCode::target_missed, "not solved (max iterations = 0), and not as expected: " + clauses + "."};
@@ -80,6 +89,9 @@ Verdict judge(const RunParams& params, const models::Evolution& evolution, const
   if (!outcome.stopped.empty())
     return {ExitCode::interrupted,
             fmt::format("{} at time {:.6g} of {:.6g}, after {}.", outcome.stopped, outcome.at.time, params.time->end, effort(outcome.at))};
+  if (!outcome.mistake.empty())
+    return {ExitCode::input, fmt::format("solved up to time {:.6g} of {:.6g}, in {}; then: {}", outcome.at.time, params.time->end,
+                                         effort(outcome.at), deck.located(core::InputError(outcome.mistake)).what())};
   if (!outcome.solved) return {ExitCode::not_converged, "not converged: " + outcome.why};
   if (params.stopping.rule != complementarity::StoppingRule::adaptive && outcome.kkt && !outcome.kkt->holds(outcome.kkt_tolerance))
     return {ExitCode::not_converged, "not converged: Newton stopped. " + outcome.kkt->sentence(outcome.kkt_tolerance)};
@@ -109,7 +121,7 @@ output::Summary summarize(const RunParams& params, const models::Model& model, c
   summary.energy_error = evolution.energy_error();
   if (const auto bound = evolution.estimate_so_far()) summary.estimate = parts(*bound);
   summary.effectivity = effectivity(evolution);
-  summary.active_points = outcome.last.active;
+  summary.active_points = outcome.active.count();
   if (outcome.kkt) {
     const auto& kkt = *outcome.kkt;
     summary.kkt = {kkt.infeasible, kkt.negative, kkt.complementary, kkt.between_nodes, kkt.equilibrium};
@@ -135,7 +147,10 @@ void check_restart(const output::StoredCheckpoint& stored, const StoredEvolution
   evolution.restore(stored);  // throws where scene, mesh or method are others
 }
 
-std::string invitation(const std::string& checkpoint) { return "to go on from the last step: thixis restart " + checkpoint; }
+std::string invitation(const std::string& checkpoint, const EvolutionOutcome& outcome) {
+  return fmt::format("to go on from the last step{}: thixis restart {}{}", outcome.mistake.empty() ? "" : " with other data", checkpoint,
+                     outcome.mistake.empty() ? "" : " --set PATH=VALUE");
+}
 
 }  // namespace
 
@@ -153,6 +168,7 @@ core::ExitCode run_unsteady(const RunParams& params, const models::UnsteadyModel
   const bool goes_on = stored && same_directory(*stored, directory.path());
   const StoredEvolution from = stored ? stored_evolution(*stored) : StoredEvolution{};
   if (stored) check_restart(*stored, from, params, goes_on, *evolution);
+  evolution->check(known_times(*params.time, evolution->jumps(), from.at.time));
   open(directory, params, goes_on, comm);
   introduce(deck, model, comm, versions);
   if (stored) {
@@ -176,10 +192,10 @@ core::ExitCode run_unsteady(const RunParams& params, const models::UnsteadyModel
     const bool failed = outcome.stopped.empty() && !outcome.solved;
     if (failed || (outcome.solved && params.output.checkpoint_every > 0))
       follow.save(outcome.at, outcome.next_length, *evolution, *outcome.X);
-    if (!outcome.solved) invite = invitation(checkpoint.path());
+    if (!outcome.solved) invite = invitation(checkpoint.path(), outcome);
     follow.finish(*evolution, outcome);
   }
-  const Verdict verdict = judge(params, *evolution, outcome);
+  const Verdict verdict = judge(params, *evolution, deck, outcome);
   summarize(params, model, *evolution, outcome, verdict, clock.seconds(), versions).write(directory.summary(), comm);
   return conclude(directory, verdict, invite, comm, clock.seconds());
 }

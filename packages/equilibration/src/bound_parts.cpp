@@ -87,11 +87,12 @@ void BoundParts::represent(const Vector& R, const CellTable& r, bool& has) const
   Kokkos::parallel_for("thixis::equilibration::represent", Kokkos::RangePolicy<>(0, patch_cells), Represent{moments, from_moments, r});
 }
 
-void BoundParts::lift_residual(const Vector& R, const CellTable& r, const CellTable& sigma, bool& has) const {
+double BoundParts::lift_residual(const Vector& R, const CellTable& r, const CellTable& sigma, bool& has) const {
   const bool had = has;
   represent(R, r, has);
-  if (has) lift(r, sigma);
-  else if (had) Kokkos::deep_copy(sigma, 0);
+  if (has) return lift(r, sigma);
+  if (had) Kokkos::deep_copy(sigma, 0);
+  return 0;
 }
 
 void BoundParts::discretization_flux(const Iterate& iterate, int alpha, const ConstCellTable& rate) const {

@@ -34,10 +34,6 @@ void keep_in_order(const Coefficients& upper, const Coefficients& lower, const s
       });
 }
 
-bool steady(const std::vector<scene::FieldPtr>& fields) {
-  return std::all_of(fields.begin(), fields.end(), [](const scene::FieldPtr& field) { return !field || field->steady(); });
-}
-
 }  // namespace
 
 MembraneLevel::MembraneLevel(const scene::MembraneScene& scene, const method::SpaceFactory& make_space, const method::MethodParams& method,

@@ -152,8 +152,10 @@ class Membranes final : public StationaryModel {
   std::string case_name() const override { return scene_.name == "data" ? "" : scene_.name; }
   void check(const mesh::Mesh& mesh, const std::vector<std::string>& field_names) const override {
     check_field_names(scene_, field_names);
+    const Boundary boundary = boundary_of(scene_, mesh);
+    check_held(scene_, boundary);
     check_functions(scene_, initial_, method_, mesh);
-    if (check_mesh_) check_mesh_(mesh, {boundary_of(scene_, mesh).dirichlet, scene_.interface_level_set, method_});
+    if (check_mesh_) check_mesh_(mesh, {boundary.dirichlet, scene_.interface_level_set, method_});
   }
   std::unique_ptr<Discretization> discretize(const mesh::Hierarchy& hierarchy, int level) const override {
     return std::make_unique<MembraneDiscretization>(scene_, make_space_, method_, linear_, initial_, hierarchy, level);

@@ -21,6 +21,8 @@ using method::Coefficients;
 
 constexpr double gauss_point = 0.21132486540518711775;  ///< (1 - 1/sqrt 3)/2: the first of two on [0, 1], both of weight 1/2
 
+constexpr double finest = 1e-4;  ///< relative error in time that a method of first order is not asked to fall below
+
 /// a u + b v.
 Coefficients combination(double a, const Coefficients& u, double b, const Coefficients& v) {
   const Coefficients w("thixis::models::combination", u.extent(0));
@@ -37,8 +39,13 @@ struct Pair {
 class ParabolicEvolution final : public Evolution {
  public:
   ParabolicEvolution(const scene::MembraneScene& scene, const method::SpaceFactory& make_space, const method::MethodParams& method,
-                     const algebra::LinearParams& linear, mesh::Hierarchy hierarchy)
-      : scene_(scene), make_space_(make_space), method_(method), linear_(linear), hierarchy_(std::move(hierarchy)) {
+                     const algebra::LinearParams& linear, mesh::Hierarchy hierarchy, std::optional<double> friedrichs)
+      : scene_(scene),
+        make_space_(make_space),
+        method_(method),
+        linear_(linear),
+        hierarchy_(std::move(hierarchy)),
+        friedrichs_(friedrichs) {
     on_mesh_ = make_level();
   }
 
@@ -56,9 +63,17 @@ class ParabolicEvolution final : public Evolution {
     return on_mesh_->joined(x);
   }
 
+  void check(const std::vector<double>& times) const override {
+    if (steady_boundary(scene_)) return;
+    for (const double t : times) check_boundary(scene_, on_mesh_->boundary(), method_, space().mesh(), t);
+  }
+
   /// F_alpha <- (f_alpha, psi) + (u_alpha^{n-1}, psi)/tau - a_alpha(g, psi) - (g, psi)/tau with the lift g of the boundary values.
   void begin(const TimeStep& step, const Vector& before) override {
     const core::Region region("assembly");
+    step_ = step;
+    open_ = true;
+    begun_ = estimated_ = false;
     on_mesh_->move_to(step.begin);
     before_ = at(before);
     on_mesh_->move_to(step.end);
@@ -76,9 +91,12 @@ class ParabolicEvolution final : public Evolution {
       F.update(-1, part, 1);
     }
     X_before_ = Teuchos::rcp(new Vector(before, Teuchos::Copy));
-    step_ = step;
-    begun_ = open_ = true;
-    estimated_ = false;
+    begun_ = true;
+  }
+
+  void give_up() override {
+    if (open_) on_mesh_->move_to(step_.begin);
+    begun_ = open_ = estimated_ = false;
   }
 
   /// X^{n-1} + ratio (X^{n-1} - X^{n-2}), made complementary point by point.
@@ -108,6 +126,7 @@ class ParabolicEvolution final : public Evolution {
       estimated_ = true;
     }
     const MembraneIterate seen(*on_mesh_, X);
+    for (int alpha = 0; alpha < 2; ++alpha) seen_.u[alpha] = seen.iterate.u[alpha];
     return (*bound_)(seen.iterate);
   }
   CellEstimates cell_estimates() const override {
@@ -122,7 +141,18 @@ class ParabolicEvolution final : public Evolution {
   std::optional<StepErrors> step_errors() const override {
     if (!estimated_) return std::nullopt;
     const auto errors = bound_->errors();
-    return StepErrors{errors.time, errors.space};
+    double energy = 0;
+    for (int alpha = 0; alpha < 2; ++alpha) energy += space().energy(*scene_.tension[alpha], seen_.u[alpha]);
+    return StepErrors{errors.time, errors.space, finest * std::sqrt(step_.length() * energy)};
+  }
+
+  std::string remark() const override {
+    if (!estimated_ || bound_->resolved()) return {};
+    return fmt::format(
+        "between t = {:.6g} and {:.6g} a force changes in a way that the rule in time of the bound does not see: the bound takes in what "
+        "32 "
+        "parts of the step show. Take shorter steps (time/step, time/adaptive), or let one end where data jump (time/also).",
+        step_.begin, step_.end);
   }
 
   void accept(const Vector& X) override {
@@ -296,7 +326,7 @@ class ParabolicEvolution final : public Evolution {
     auto contact = on_mesh_->contact_problem();
     contact.time = time;
     return std::make_unique<equilibration::StepBound>(on_mesh_->polynomials(), contact, hierarchy_,
-                                                      static_cast<int>(hierarchy_.levels.size()) - 1);
+                                                      static_cast<int>(hierarchy_.levels.size()) - 1, friedrichs_);
   }
 
   /// With the boundary values of the time of the data.
@@ -339,6 +369,7 @@ class ParabolicEvolution final : public Evolution {
   method::MethodParams method_;
   algebra::LinearParams linear_;
   mesh::Hierarchy hierarchy_;
+  std::optional<double> friedrichs_;                ///< given in the deck
   std::map<int, std::vector<GlobalIndex>> marked_;  ///< cells whose refinement made this level
   std::unique_ptr<MembraneLevel> on_mesh_;
   double weight_ = 0;  ///< 1/tau in the matrices; 0: none yet
@@ -346,6 +377,7 @@ class ParabolicEvolution final : public Evolution {
   bool begun_ = false;                      ///< step_ and before_ are those of the X at its end
   bool open_ = false;                       ///< … and it has not been accepted
   Pair before_;                             ///< u^{n-1}
+  Pair seen_;                               ///< u of the last estimate
   Teuchos::RCP<const Vector> X_before_;     ///< X^{n-1} of the step begun
   Teuchos::RCP<const Vector> before_last_;  ///< at the begin of the last step accepted, whose length is last_length_; null: none
   double last_length_ = 0;
@@ -360,13 +392,22 @@ class ParabolicEvolution final : public Evolution {
 class ParabolicMembranes final : public UnsteadyModel {
  public:
   ParabolicMembranes(scene::MembraneScene scene, method::SpaceFactory make_space, method::MethodParams method, algebra::LinearParams linear,
-                     method::MeshCheck check_mesh)
-      : scene_(std::move(scene)), make_space_(std::move(make_space)), check_mesh_(std::move(check_mesh)), method_(method), linear_(linear) {
+                     method::MeshCheck check_mesh, std::optional<double> friedrichs)
+      : scene_(std::move(scene)),
+        make_space_(std::move(make_space)),
+        check_mesh_(std::move(check_mesh)),
+        method_(method),
+        linear_(linear),
+        friedrichs_(friedrichs) {
     for (int alpha = 0; alpha < 2; ++alpha)
       if (!scene_.initial[alpha] && scene_.exact) scene_.initial[alpha] = scene_.exact->u[alpha];
   }
   std::string name() const override { return "parabolic membranes"; }
   std::string case_name() const override { return scene_.name == "data" ? "" : scene_.name; }
+
+  void check(const mesh::MeshParams& params, const std::vector<double>& times) const override {
+    if (!steady_boundary(scene_)) check_boundary(scene_, params, times);
+  }
 
   std::unique_ptr<Evolution> evolve(const mesh::MeshParams& params, const core::Comm& comm, const std::string& folder,
                                     const std::vector<std::string>& field_names) const override {
@@ -384,7 +425,7 @@ class ParabolicMembranes final : public UnsteadyModel {
     check_functions(scene_, {scene_.initial[0], scene_.initial[1], nullptr}, method_, mesh);
     check_order({scene_.initial[0], scene_.initial[1]}, method_, mesh);
     if (check_mesh_) check_mesh_(mesh, {boundary_of(scene_, mesh).dirichlet, scene_.interface_level_set, method_});
-    return std::make_unique<ParabolicEvolution>(scene_, make_space_, method_, linear_, std::move(hierarchy));
+    return std::make_unique<ParabolicEvolution>(scene_, make_space_, method_, linear_, std::move(hierarchy), friedrichs_);
   }
 
  private:
@@ -393,13 +434,15 @@ class ParabolicMembranes final : public UnsteadyModel {
   method::MeshCheck check_mesh_;
   method::MethodParams method_;
   algebra::LinearParams linear_;
+  std::optional<double> friedrichs_;
 };
 
 }  // namespace
 
 std::unique_ptr<UnsteadyModel> parabolic_membranes(scene::MembraneScene scene, method::SpaceFactory make_space, method::MethodParams method,
-                                                   algebra::LinearParams linear, method::MeshCheck check_mesh) {
-  return std::make_unique<ParabolicMembranes>(std::move(scene), std::move(make_space), method, linear, std::move(check_mesh));
+                                                   algebra::LinearParams linear, method::MeshCheck check_mesh,
+                                                   std::optional<double> friedrichs) {
+  return std::make_unique<ParabolicMembranes>(std::move(scene), std::move(make_space), method, linear, std::move(check_mesh), friedrichs);
 }
 
 }  // namespace thixis::models

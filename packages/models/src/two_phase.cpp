@@ -49,13 +49,15 @@ class BoundSoFar {
   void add(const std::optional<complementarity::Estimate>& of_step) {
     every_step_ = every_step_ && of_step.has_value();
     if (!every_step_) return;
-    const double parts[] = {of_step->total, of_step->discretization, of_step->linearization, of_step->algebraic};
+    const double parts[] = {of_step->total, of_step->discretization, of_step->linearization, of_step->algebraic, of_step->time.value_or(0)};
     for (std::size_t i = 0; i < squares_.size(); ++i) squares_[i] += parts[i] * parts[i];
     any_step_ = true;
   }
   std::optional<complementarity::Estimate> value() const {
     if (!every_step_ || !any_step_) return std::nullopt;
-    return complementarity::Estimate{std::sqrt(squares_[0]), std::sqrt(squares_[1]), std::sqrt(squares_[2]), std::sqrt(squares_[3]), 0, 0};
+    complementarity::Estimate eta{std::sqrt(squares_[0]), std::sqrt(squares_[1]), std::sqrt(squares_[2]), std::sqrt(squares_[3]), 0, 0};
+    eta.time = std::sqrt(squares_[4]);
+    return eta;
   }
   void save(std::map<std::string, double>& attributes) const {
     attributes["bound_every_step"] = every_step_;
@@ -69,8 +71,8 @@ class BoundSoFar {
   }
 
  private:
-  static constexpr const char* names[] = {"bound_total", "bound_discretization", "bound_linearization", "bound_algebraic"};
-  std::array<double, 4> squares_ = {0, 0, 0, 0};
+  static constexpr const char* names[] = {"bound_total", "bound_discretization", "bound_linearization", "bound_algebraic", "bound_time"};
+  std::array<double, 5> squares_ = {0, 0, 0, 0, 0};
   bool every_step_ = true, any_step_ = false;
 };
 
@@ -111,6 +113,7 @@ class TwoPhaseEvolution final : public Evolution {
   }
   complementarity::Problem& problem() override { return problem_; }
   double round_off() const override { return problem_.round_off(); }
+  void give_up() override { of_step_.reset(); }
   bool predict(Vector& X) override {
     if (before_last_.is_null()) return false;
     Tpetra::deep_copy(X, *predicted(flow_, *before_, *before_last_, problem_.step().length / last_length_));
@@ -122,6 +125,7 @@ class TwoPhaseEvolution final : public Evolution {
     if (!bound_begun_) bound_->begin(problem_.step(), *before_);
     bound_begun_ = true;
     of_step_ = (*bound_)(X, problem_.linearization());
+    of_step_->time = bound_->step_errors().time;
     return *of_step_;
   }
   CellEstimates cell_estimates() const override {

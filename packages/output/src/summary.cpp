@@ -36,6 +36,7 @@ Json json(const std::optional<SummaryEstimate>& estimate) {
                         {"linearization", estimate->linearization},
                         {"algebraic", estimate->algebraic}});
   append(result, object(estimate->terms));
+  if (estimate->time) append(result, object({{"time", *estimate->time}}));
   return result;
 }
 

@@ -12,6 +12,10 @@ namespace thixis::drive {
 /// Refuses what the schema knows but no code serves yet, and combinations that can not work. Throws InputError.
 void check_served(const RunParams& params);
 
+/// What a run would find before its first step and what shows without a mesh: data at later times that leave no solution. Throws
+/// InputError.
+void check_ahead(const RunParams& params, const models::Model& model);
+
 /// Runs a deck from its mesh to its files: mesh, solve, verify, `expect`, output, verdict. Nothing is written before mesh and scene are
 /// known to be valid. Returns the exit code; the same on all ranks.
 ///

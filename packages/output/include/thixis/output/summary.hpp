@@ -15,6 +15,7 @@ namespace thixis::output {
 struct SummaryEstimate {
   double total = 0, discretization = 0, linearization = 0, algebraic = 0;
   std::vector<std::pair<std::string, double>> terms;  ///< further keys: every term of the bound by its name
+  std::optional<double> time = std::nullopt;  ///< key `time` of scenes in time: how much of discretization shorter steps would take away
 };
 
 /// What a run in time adds.
