@@ -21,6 +21,11 @@ struct Clauses {
     else if (!(*value >= bounds->at(0) && *value <= bounds->at(1)))
       missed.push_back(fmt::format("{} {:.5g} is not between {:.5g} and {:.5g}", what, *value, bounds->at(0), bounds->at(1)));
   }
+  void promised(const std::optional<complementarity::Promise>& promise, const std::optional<complementarity::Promise>& expected) {
+    if (!expected) return;
+    if (!promise) missed.push_back("what the bound promises is not known");
+    else if (*promise > *expected) missed.push_back(fmt::format("the bound is '{}', not '{}'", to_text(*promise), to_text(*expected)));
+  }
   void equal(const char* what, long long value, const std::optional<long long>& expected) {
     if (expected && value != *expected) missed.push_back(fmt::format("{} {}, not {}", what, value, *expected));
   }
@@ -33,7 +38,10 @@ Found found(const Outcome& outcome) {
   found.solved = !outcome.not_wanted;
   found.energy_error = outcome.energy_error;
   if (outcome.kkt) found.kkt = outcome.kkt->worst();
-  if (outcome.estimate) found.bound = outcome.estimate->total;
+  if (outcome.estimate) {
+    found.bound = outcome.estimate->total;
+    found.promise = outcome.estimate->promise;
+  }
   found.effectivity = outcome.effectivity();
   found.newton_iterations = outcome.at.newton_iterations;
   found.newton_finest = outcome.at.newton_on_level;
@@ -53,6 +61,7 @@ std::vector<std::string> missed(const ExpectParams& expect, const Found& found) 
     clauses.at_most("number of Krylov iterations", found.linear_iterations, expect.linear_iterations_at_most);
     clauses.at_most("violation of the contact conditions", found.kkt, expect.kkt_at_most);
     clauses.at_most("bound", found.bound, expect.bound_at_most);
+    clauses.promised(found.promise, expect.promise);
     clauses.between("effectivity", found.effectivity, expect.effectivity_between);
     clauses.at_most("number of time steps", found.steps, expect.steps_at_most);
     clauses.at_most("number of steps that were begun again", found.retries, expect.retries_at_most);

@@ -8,6 +8,7 @@ namespace thixis::drive {
 struct Found {
   bool solved = true;  ///< false: nothing was to be solved, only the counts are judged
   std::optional<double> energy_error, kkt, bound, effectivity;
+  std::optional<complementarity::Promise> promise;
   std::optional<int> newton_iterations, newton_finest, linear_iterations, steps, retries;
   std::optional<double> water_balance, hydrogen_balance, front;
   GlobalIndex unknowns = 0, cells = 0;

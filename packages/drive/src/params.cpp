@@ -122,7 +122,7 @@ const core::Schema<TimeParams>& TimeParams::schema() {
 const core::Schema<AdaptParams>& AdaptParams::schema() {
   static const auto schema =
       core::Schema<AdaptParams>("adapt",
-                                "How the mesh is refined until the error is guaranteed to be at most stopping/target; without a target, "
+                                "How the mesh is refined until the bound on the error is at most stopping/target; without a target, "
                                 "as far as the limits allow.")
           .choice("marking", &AdaptParams::marking, {{"dorfler", Marking::dorfler}, {"uniform", Marking::uniform}},
                   "The fewest cells with a given share of the squared discretization error, or all cells.")
@@ -135,6 +135,7 @@ const core::Schema<AdaptParams>& AdaptParams::schema() {
 }
 
 const core::Schema<ExpectParams>& ExpectParams::schema() {
+  using complementarity::Promise;
   static const auto schema =
       core::Schema<ExpectParams>("expect", "What must hold of the result; if it does not, the run ends with exit code 4.")
           .parameter("energy error at most", &ExpectParams::energy_error_at_most, core::above(0), "Bound on the true energy error.")
@@ -145,7 +146,13 @@ const core::Schema<ExpectParams>& ExpectParams::schema() {
           .parameter("linear iterations at most", &ExpectParams::linear_iterations_at_most, core::at_least(0), "Krylov iterations in all.")
           .parameter("kkt at most", &ExpectParams::kkt_at_most, core::above(0), "Largest violation of the contact conditions, relative.")
           .parameter("effectivity between", &ExpectParams::effectivity_between, "Smallest and largest ratio of bound and true error.")
-          .parameter("bound at most", &ExpectParams::bound_at_most, core::above(0), "Largest guaranteed bound on the energy error.")
+          .parameter("bound at most", &ExpectParams::bound_at_most, core::above(0),
+                     "Largest bound on the energy error, whatever it promises.")
+          .choice("promise", &ExpectParams::promise,
+                  {{to_text(Promise::guaranteed), Promise::guaranteed},
+                   {to_text(Promise::up_to_quadrature), Promise::up_to_quadrature},
+                   {to_text(Promise::indicator), Promise::indicator}},
+                  "What the estimate must promise at least.")
           .parameter("unknowns", &ExpectParams::unknowns, core::at_least(0), "Number of unknowns, the multiplier included.")
           .parameter("cells", &ExpectParams::cells, core::at_least(0), "Number of cells.")
           .parameter("steps at most", &ExpectParams::steps_at_most, core::at_least(1), "Time steps.")

@@ -37,7 +37,7 @@ void introduce(const core::Deck& deck, const models::Model& model, const core::C
   log::info("{}", text);
 }
 
-std::string estimate_header() { return fmt::format("{:>12}{:>12}{:>12}{:>12}", "eta_disc", "eta_lin", "eta_alg", "bound"); }
+std::string estimate_header() { return fmt::format("{:>12}{:>12}{:>12}{:>12}", "eta_disc", "eta_lin", "eta_alg", "eta"); }
 
 std::string estimate_columns(const std::optional<complementarity::Estimate>& eta) {
   if (!eta) return "";
@@ -51,6 +51,7 @@ void set_estimate(output::HistoryRow& row, const std::optional<complementarity::
   row.eta_alg = eta->algebraic;
   row.eta_total = eta->total;
   row.eta_time = eta->time;
+  row.promise = to_text(eta->promise);
 }
 
 void add_estimates(const OutputParams& params, const models::CellEstimates& cells, const output::Grid& grid,
@@ -63,8 +64,15 @@ void add_estimates(const OutputParams& params, const models::CellEstimates& cell
                               grid.cells()));
 }
 
-output::SummaryEstimate parts(const complementarity::Estimate& eta) {
-  return {eta.total, eta.discretization, eta.linearization, eta.algebraic, {}, eta.time};
+output::SummaryEstimate parts(const complementarity::Estimate& eta, const std::vector<std::string>& doubts) {
+  const bool open = eta.promise == complementarity::Promise::up_to_quadrature;
+  return {eta.total, eta.discretization, eta.linearization, eta.algebraic, to_text(eta.promise), open ? doubts : std::vector<std::string>(),
+          {}, eta.time};
+}
+
+void say_doubts(const std::optional<complementarity::Estimate>& eta, const std::vector<std::string>& doubts) {
+  if (!eta || eta->promise != complementarity::Promise::up_to_quadrature || doubts.empty()) return;
+  log::info("the bound is {}: {}", to_text(eta->promise), fmt::join(doubts, "; "));
 }
 
 output::Summary begin_summary(const RunParams& params, const models::Model& model, const Verdict& verdict, const core::Comm& comm,

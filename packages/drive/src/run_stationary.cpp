@@ -44,7 +44,7 @@ output::Summary summarize(const RunParams& params, const models::Model& model, c
   summary.newton_finest = outcome.at.newton_on_level;
   summary.linear_iterations = outcome.at.linear_iterations;
   summary.energy_error = outcome.energy_error;
-  if (outcome.estimate) summary.estimate = parts(*outcome.estimate);
+  if (outcome.estimate) summary.estimate = parts(*outcome.estimate, outcome.discretization->doubts());
   summary.effectivity = outcome.effectivity();
   if (outcome.published) {
     summary.estimate_published = parts(outcome.published->parts);
@@ -114,6 +114,7 @@ core::ExitCode run_stationary(const RunParams& params, const models::StationaryM
   if (!outcome.not_wanted && !params.output.no_fields()) write_fields(directory, params.output, outcome, comm);
   const auto summary = summarize(params, model, outcome, verdict, comm, clock.seconds(), versions);
   summary.write(directory.summary(), comm);
+  say_doubts(outcome.estimate, outcome.discretization->doubts());
   const bool invite = kept && verdict.code == ExitCode::not_converged;
   return conclude(directory, verdict, invite ? invitation(checkpoint.path(), params, outcome) : "", comm, clock.seconds());
 }

@@ -35,7 +35,10 @@ Found found(const models::Evolution& evolution, const EvolutionOutcome& outcome)
   if (found.solved) {
     found.energy_error = evolution.energy_error();
     if (outcome.kkt) found.kkt = outcome.kkt->worst();
-    if (const auto bound = evolution.estimate_so_far()) found.bound = bound->total;
+    if (const auto bound = evolution.estimate_so_far()) {
+      found.bound = bound->total;
+      found.promise = bound->promise;
+    }
     found.effectivity = effectivity(evolution);
     found.newton_iterations = outcome.at.newton_iterations;
     found.newton_finest = outcome.last.steps;
@@ -62,8 +65,7 @@ std::string time_decides(const complementarity::Estimate& bound) {
 std::string qualities(const RunParams& params, const models::Evolution& evolution, const EvolutionOutcome& outcome) {
   std::string clauses;
   if (const auto error = evolution.energy_error()) clauses += fmt::format("; energy error {:.4e}", *error);
-  if (const auto bound = evolution.estimate_so_far())
-    clauses += fmt::format("; {} {:.4e}", evolution.bound_name(), bound->total) + time_decides(*bound);
+  if (const auto bound = evolution.estimate_so_far()) clauses += "; " + bound_clause(evolution.bound_name(), *bound) + time_decides(*bound);
   for (const models::Balance& balance : evolution.balances())
     clauses += fmt::format("; {} balanced to {:.1e} in every step", balance.name, balance.worst_step);
   if (outcome.kkt) {
@@ -98,7 +100,7 @@ Verdict judge(const RunParams& params, const models::Evolution& evolution, const
   const auto bound = evolution.estimate_so_far();
   if (params.stopping.target && bound && bound->total > *params.stopping.target)
     return {ExitCode::target_missed,
-            fmt::format("target missed: {} {:.4e}, not {:g}{}{}{}.", evolution.bound_name(), bound->total, *params.stopping.target,
+            fmt::format("target missed: {}, not {:g}{}{}{}.", bound_clause(evolution.bound_name(), *bound), *params.stopping.target,
                         outcome.refinement_limited ? "; adapt/max levels or adapt/max unknowns kept the mesh from becoming finer" : "",
                         outcome.steps_too_long ? "; most of it is the error in time: take shorter steps (time/step)" : "",
                         clauses.empty() ? "" : "; besides, not as expected: " + clauses)};
@@ -119,7 +121,7 @@ output::Summary summarize(const RunParams& params, const models::Model& model, c
   summary.newton_finest = outcome.last.steps;
   summary.linear_iterations = outcome.at.linear_iterations;
   summary.energy_error = evolution.energy_error();
-  if (const auto bound = evolution.estimate_so_far()) summary.estimate = parts(*bound);
+  if (const auto bound = evolution.estimate_so_far()) summary.estimate = parts(*bound, evolution.doubts());
   summary.effectivity = effectivity(evolution);
   summary.active_points = outcome.active.count();
   if (outcome.kkt) {
@@ -197,6 +199,7 @@ core::ExitCode run_unsteady(const RunParams& params, const models::UnsteadyModel
   }
   const Verdict verdict = judge(params, *evolution, deck, outcome);
   summarize(params, model, *evolution, outcome, verdict, clock.seconds(), versions).write(directory.summary(), comm);
+  if (!outcome.not_wanted) say_doubts(evolution->estimate_so_far(), evolution->doubts());
   return conclude(directory, verdict, invite, comm, clock.seconds());
 }
 

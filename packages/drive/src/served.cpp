@@ -45,6 +45,7 @@ void judge_estimate(const RunParams& params, Mistakes& mistakes) {
   const char* nobody = "nobody estimates the error; write stopping/estimate = true.";
   if (params.expect.effectivity_between) mistakes.push_back(fmt::format("expect/effectivity between: {}", nobody));
   if (params.expect.bound_at_most) mistakes.push_back(fmt::format("expect/bound at most: {}", nobody));
+  if (params.expect.promise) mistakes.push_back(fmt::format("expect/promise: {}", nobody));
   if (params.output.fields == "all") return;
   for (const auto& name : params.output.estimate_names())
     mistakes.push_back(fmt::format("output/fields: there is no '{}', for {}", name, nobody));

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "cut_oscillation.hpp"
+#include "exactness.hpp"
 #include "tables.hpp"
 #include "thixis/algebra/tpetra.hpp"
 #include "thixis/mesh/ancestry.hpp"
@@ -31,6 +32,7 @@ BoundParts::BoundParts(const method::PolynomialSpace& of, const ContactProblem& 
       metric(metrics(mesh, of.cells())) {
   const auto table = [](const std::string& label, LocalIndex rows, int columns) { return CellTable(label, rows, columns); };
   const bool conforming = space.conforming();
+  bool proved[2] = {true, true};
   multiplier = conforming ? patchwise_multiplier(space) : cellwise_multiplier(space);
   if (conforming) {
     patches = std::make_unique<PatchFlux>(mesh, space.cells(), held, q);
@@ -44,8 +46,10 @@ BoundParts::BoundParts(const method::PolynomialSpace& of, const ContactProblem& 
   lambda = table("thixis::equilibration::lambda", owned, n);
   for (int alpha = 0; alpha < problem.count; ++alpha) {
     Membrane& m = membrane[alpha];
-    m.least_tension = least_tension(space, *problem.tension[alpha]);
-    m.stress = make_stress(space, q, *problem.tension[alpha], m.least_tension);
+    const TensionBounds bounds = tension_bounds(space, *problem.tension[alpha]);
+    m.least_tension = bounds.least;
+    proved[alpha] = bounds.proved;
+    m.stress = make_stress(space, q, *problem.tension[alpha], bounds);
     m.w = table("thixis::equilibration::stress", patch_cells, 2 * n);
     m.r_alg = table("thixis::equilibration::r_alg", patch_cells, n);
     m.r_lin = table("thixis::equilibration::r_lin", patch_cells, n);
@@ -66,6 +70,7 @@ BoundParts::BoundParts(const method::PolynomialSpace& of, const ContactProblem& 
   const auto h_host = Kokkos::create_mirror_view(h);
   std::copy(diameter.begin(), diameter.end(), h_host.data());
   Kokkos::deep_copy(h, h_host);
+  doubts = equilibration::doubts(space, problem, q, proved, *feasible);
 }
 
 void BoundParts::set_sources(double time) {

@@ -46,6 +46,8 @@ struct BoundParts {
   bool has_positive = false;
   FeasiblePair::Parts parts;
   GuaranteedBound::CellParts cells;
+  std::vector<std::string> doubts;  ///< what keeps the bound from being guaranteed, but for time
+  bool gap_at_points = false;       ///< FeasiblePair::Parts::at_points of the last iterate, on any rank
 
   BoundParts(const method::PolynomialSpace& of, const ContactProblem& contact, const mesh::Hierarchy& hierarchy, int level);
 

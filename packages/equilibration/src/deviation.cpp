@@ -119,6 +119,7 @@ Deviation deviation_of_obstacle(const method::PolynomialSpace& space, const Boun
   const double width = std::max(comm.max(high[0]) - comm.min(low[0]), comm.max(high[1]) - comm.min(low[1]));
 
   // where is psi more than its interpolant?
+  bool deviates = false;
   const auto psi_less_interpolant = [&](const method::QuadratureBlock& block, LocalIndex k, const View<double*>& value, int q) {
     double c[reference::max_functions];
     polynomial(block.cell(k), c);
@@ -133,6 +134,7 @@ Deviation deviation_of_obstacle(const method::PolynomialSpace& space, const Boun
         double most = 0;
         for (int q = block.offset(k); q < block.offset(k + 1); ++q)
           most = std::max(most, std::abs(psi_less_interpolant(block, k, value, q)));
+        deviates = deviates || most > 1e-13 * size;
         if (most > 1e-13 * size || in_layer[block.cell(k)] >= 0) positions.push_back(block.first + k);
       }
     });
@@ -140,6 +142,7 @@ Deviation deviation_of_obstacle(const method::PolynomialSpace& space, const Boun
   if (!comm.any(!positions.empty())) return {};
 
   Deviation deviation;
+  deviation.of_obstacle = comm.any(deviates);
   deviation.quadrature = subset(all, positions);
   const auto place = nowhere(mesh);
   const View<double*> bound("thixis::equilibration::deviation_bound", positions.size());
@@ -156,6 +159,7 @@ Deviation deviation_of_obstacle(const method::PolynomialSpace& space, const Boun
       for (LocalIndex k = 0; k < block.cells; ++k) {
         const LocalIndex K = block.cell(k), at = block.first + k;
         place(K) = at;
+        if (in_layer[K] >= 0) bound(at) = lift.bound_of_difference(in_layer[K]);
         const auto geometry = mesh::cell_geometry(host.coordinates, host.cell_vertices, K);
         double c[reference::max_functions];
         polynomial(K, c);

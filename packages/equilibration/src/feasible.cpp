@@ -8,6 +8,7 @@
 #include "deviation.hpp"
 #include "sources.hpp"
 #include "tables.hpp"
+#include "tension_bounds.hpp"
 #include "thixis/core/assert.hpp"
 #include "thixis/method/gradient_form.hpp"
 #include "to_view.hpp"
@@ -181,25 +182,27 @@ struct FeasiblePair::Impl {
     const bool both = problem.count == 2;
     bool varying = false;
     double typical[2] = {0, 0};
+    std::vector<double> most[2];
     for (int alpha = 0; alpha < problem.count; ++alpha) {
+      const TensionBounds bounds = tension_bounds(space, *problem.tension[alpha]);
       if (const double* mu = problem.tension[alpha]->constant()) {
         typical[alpha] = tension.constant[alpha] = *mu;
       } else {
         varying = true;
-        tension.at_points[alpha] = method::tension_at_points(space.mesh(), space.quadrature(), *problem.tension[alpha]);
+        tension.at_points[alpha] = bounds.at_points;
         typical[alpha] = mean(comm, tension.at_points[alpha]);
       }
+      most[alpha] = bounds.most;
     }
     kernel.apart[0] = both ? typical[1] / (typical[0] + typical[1]) : 1;
     kernel.apart[1] = 1 - kernel.apart[0];
     const double* const apart = kernel.apart;
     kernel.constant_move_tension = typical[0] * apart[0] * apart[0] + typical[1] * apart[1] * apart[1];
     if (!varying) return;
-    const View<double*> most("thixis::equilibration::move_tension", space.mesh().owned_cells);
+    const View<double*> of_move("thixis::equilibration::move_tension", space.mesh().owned_cells);
     for (LocalIndex K = 0; K < space.mesh().owned_cells; ++K)
-      for (GlobalIndex q = space.quadrature().offset(K); q < space.quadrature().offset(K + 1); ++q)
-        most(K) = std::max(most(K), tension(0, q) * apart[0] * apart[0] + tension(1, q) * apart[1] * apart[1]);
-    kernel.move_tension = most;
+      for (int alpha = 0; alpha < problem.count; ++alpha) of_move(K) += most[alpha][K] * apart[alpha] * apart[alpha];
+    kernel.move_tension = of_move;
     if (both) kernel.theta = to_view("thixis::equilibration::theta", comm.together([&] { return shares(space, nodes, problem.tension); }));
   }
 
@@ -297,8 +300,10 @@ void FeasiblePair::evaluate(const method::Coefficients (&u)[2], const ConstCellT
   kernel.at_nodes = parts.at_nodes;
   kernel.rest = parts.rest;
   kernel.contact = parts.contact;
+  kernel.at_points = View<bool>("thixis::equilibration::at_points");
   Kokkos::parallel_for("thixis::equilibration::feasible_parts", Kokkos::RangePolicy<>(0, cells), kernel);
   Kokkos::fence();
+  parts.at_points = kernel.at_points();
   for (const auto& [cell, energy] : impl_->lift->remainder()) {
     parts.whole(cell) += energy;
     parts.rest(cell) += energy;
@@ -450,6 +455,7 @@ FeasiblePair::Bulge FeasiblePair::bulge(const FeasiblePair& before, const Feasib
   return bulge;
 }
 
+bool FeasiblePair::obstacle_is_interpolated() const { return !impl_->kernel.deviation.of_obstacle; }
 double FeasiblePair::boundary_energy() const { return impl_->lift->energy(); }
 
 std::size_t FeasiblePair::bytes() const {

@@ -39,6 +39,7 @@ KOKKOS_FUNCTION FeasibleParts::Move FeasibleParts::move_pointwise(int K, LocalIn
   Move move;
   const bool apart_already = smallest(n, gap) >= deviation.bound(place);
   if (apart_already && !counts) return move;
+  if (at_points.data() != nullptr) at_points() = true;
   double a[max_density];
   if (counts) density.monomials(&lambda(K, 0), a);
   int below = 0;

@@ -19,6 +19,7 @@ struct Deviation {
   method::CellQuadrature quadrature;  ///< on the places
   View<const double*> bound;          ///< of |D| in the cell
   View<const double* [3]> at_points;  ///< D and its derivatives
+  bool of_obstacle = false;           ///< psi is more than psi_I in some cell of some rank
   KOKKOS_FUNCTION LocalIndex operator()(LocalIndex K) const { return place.extent(0) == 0 ? -1 : place(K); }
 };
 
@@ -49,6 +50,7 @@ struct FeasibleParts {
   ConstCellTable lambda;
   DensityValues density;
   View<double*> whole, at_nodes, rest, contact;  ///< out, overwritten
+  View<bool> at_points;                          ///< out: set where integrals are what a quadrature makes of them; may be null
 
   KOKKOS_FUNCTION void operator()(int K) const;
   /// What `contact` is of s_c alone.

@@ -92,6 +92,7 @@ struct StepBound::Impl : BoundParts {
   // since the start
   Square all;
   double disc2 = 0, lin2 = 0, alg2 = 0, time2 = 0;
+  complementarity::Promise promise = complementarity::Promise::guaranteed;  ///< the weakest of all steps
 
   Impl(const method::PolynomialSpace& of, const ContactProblem& contact, const mesh::Hierarchy& hierarchy, int level,
        std::optional<double> constant)
@@ -310,6 +311,7 @@ void StepBound::Impl::sum_up() {
   eta = {};
   eta.evident = space.conforming();  // the proof is for continuous elements
   eta.total = step.bound();
+  eta.promise = complementarity::Promise::up_to_quadrature;
   parts_of_step = {
       std::sqrt(length * sum[of_disc]) + N + std::sqrt(length * sum[of_rest]) + std::sqrt(length * std::abs(together - sum[contact_nodes])),
       std::sqrt(length * sum[of_lin]) + std::sqrt(length * sum[of_nodes]) + std::sqrt(length * sum[contact_nodes]),
@@ -471,6 +473,7 @@ void StepBound::accept() {
   in.lin2 += squared(in.parts_of_step[1]);
   in.alg2 += squared(in.parts_of_step[2]);
   in.time2 += squared(in.errors_of_step.time);
+  in.promise = weakest(in.promise, in.eta.promise);
 }
 
 complementarity::Estimate StepBound::so_far() const {
@@ -481,18 +484,19 @@ complementarity::Estimate StepBound::so_far() const {
   eta.linearization = std::sqrt(in.lin2);
   eta.algebraic = std::sqrt(in.alg2);
   eta.time = std::sqrt(in.time2);
+  eta.promise = in.promise;
   return eta;
 }
 
 const std::vector<std::string>& StepBound::names_of_sums() {
   static const std::vector<std::string> names = {"bound",           "bound_remainder", "bound_discretization", "bound_linearization",
-                                                 "bound_algebraic", "bound_time"};
+                                                 "bound_algebraic", "bound_time",      "bound_promise"};
   return names;
 }
 
 std::map<std::string, double> StepBound::sums() const {
   const Impl& in = *impl_;
-  const double values[] = {in.all.energy, in.all.remainder, in.disc2, in.lin2, in.alg2, in.time2};
+  const double values[] = {in.all.energy, in.all.remainder, in.disc2, in.lin2, in.alg2, in.time2, static_cast<double>(in.promise)};
   std::map<std::string, double> sums;
   for (std::size_t i = 0; i < names_of_sums().size(); ++i) sums[names_of_sums()[i]] = values[i];
   return sums;
@@ -500,8 +504,10 @@ std::map<std::string, double> StepBound::sums() const {
 
 void StepBound::restore(const std::map<std::string, double>& sums) {
   Impl& in = *impl_;
-  double* const values[] = {&in.all.energy, &in.all.remainder, &in.disc2, &in.lin2, &in.alg2, &in.time2};
+  double promise = 0;
+  double* const values[] = {&in.all.energy, &in.all.remainder, &in.disc2, &in.lin2, &in.alg2, &in.time2, &promise};
   for (std::size_t i = 0; i < names_of_sums().size(); ++i) *values[i] = sums.at(names_of_sums()[i]);
+  in.promise = static_cast<complementarity::Promise>(promise);
 }
 
 GuaranteedBound::Fluxes StepBound::fluxes(int alpha) const {

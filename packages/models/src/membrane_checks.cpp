@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "degree_check.hpp"
 #include "exact_gradient.hpp"
 #include "thixis/core/error.hpp"
 #include "thixis/mesh/groups.hpp"
@@ -270,6 +271,7 @@ void check_functions(const scene::MembraneScene& scene, const std::array<scene::
   check_boundary(scene, boundary, method, mesh, 0);
   check_initial(initial, mesh);
   if (scene.name == "data") check_data(scene, method, mesh);
+  check_degrees(scene, boundary, mesh);
 }
 
 void check_field_names(const scene::MembraneScene& scene, const std::vector<std::string>& names) {

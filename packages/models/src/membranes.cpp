@@ -79,6 +79,8 @@ class MembraneDiscretization final : public Discretization {
     return (*bound_)(seen.iterate);
   }
 
+  std::vector<std::string> doubts() const override { return bound_ ? bound_->doubts() : std::vector<std::string>(); }
+
   CellEstimates cell_estimates() const override {
     CellEstimates of_cells;
     if (!bound_) return of_cells;

@@ -156,8 +156,7 @@ class TwoPhaseEvolution final : public Evolution {
   }
   std::optional<complementarity::Estimate> estimate_so_far() const override { return bound_so_far_.value(); }
   std::string bound_name() const override {
-    return bound_params_.measure == complementarity::Measure::residual ? "dual norm of the residuals at most"
-                                                                       : "estimate of the literature";
+    return bound_params_.measure == complementarity::Measure::residual ? "dual norm of the residuals about" : "estimate of the literature";
   }
   std::vector<Balance> balances() const override { return balance_.balances(); }
 

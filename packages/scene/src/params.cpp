@@ -268,6 +268,11 @@ const core::Schema<DataParams>& DataParams::schema() {
           .parameter("u_y", &DataParams::u_y, "Model obstacle: derivative of u in y; without it differences of u.")
           .parameter("lambda", &DataParams::lambda, "Exact multiplier, if known.")
           .block("initial", &DataParams::initial, InitialParams::schema())
+          .parameter(
+              "degree", &DataParams::degree, core::between(0, 30),
+              "Names the data as exact: mu, f, g, t and psi are polynomials of at most this degree (in x and y, and in t) in every "
+              "cell of the mesh and on either side of the interface. Not needed where an expression is one polynomial: that is seen. "
+              "docs/methods/estimates.md, 8, has what it is good for.")
           .parameter("centre", &DataParams::centre, core::entries(2), "The point from which r is measured.")
           .values("constants", &DataParams::constants,
                   "Named numbers that the expressions of this block, of 'interface' and of 'boundary' may use.");

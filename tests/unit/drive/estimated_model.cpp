@@ -44,6 +44,7 @@ class Estimated final : public models::Discretization {
     eta.algebraic = R.norm2();
     eta.linearization = mesh_.comm.sum(below[0]) + 1e-2 * mesh_.comm.sum(below[1]);
     eta.total = eta.discretization + eta.linearization + eta.algebraic;
+    eta.promise = model_.promise;
     cells_ = shared_out(eta);
     return eta;
   }

@@ -15,6 +15,7 @@ class EstimatedModel final : public models::StationaryModel {
   explicit EstimatedModel(const RunParams& params);
 
   double effectivity = 1.5;
+  complementarity::Promise promise = complementarity::Promise::guaranteed;
   int good_levels = 100;             ///< on finer ones the bound is ten times larger
   mutable int estimates = 0;         ///< calls of `estimate`
   mutable std::vector<int> entered;  ///< levels that were discretized

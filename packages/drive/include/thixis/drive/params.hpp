@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "thixis/algebra/solver.hpp"
+#include "thixis/complementarity/estimate.hpp"
 #include "thixis/complementarity/parameters.hpp"
 #include "thixis/core/schema.hpp"
 #include "thixis/mesh/build.hpp"
@@ -73,6 +74,7 @@ struct ExpectParams {
   std::optional<double> kkt_at_most;
   std::optional<std::vector<double>> effectivity_between;
   std::optional<double> bound_at_most;
+  std::optional<complementarity::Promise> promise;
   std::optional<long long> unknowns, cells;
   std::optional<int> steps_at_most, retries_at_most;
   std::optional<double> water_balance_at_most, hydrogen_balance_at_most;

@@ -43,6 +43,7 @@ class FeasiblePair {
     View<double*> at_nodes;  ///< |||s_N - s_c|||_K: what further Newton steps take away
     View<double*> rest;      ///< a bound on what remains: |||s - s_N|||_K + |||s_c - u_h|||_K
     View<double*> contact;   ///< (lambda, s_1 - s_2)_K
+    bool at_points = false;  ///< whether in some cell of this rank a pointwise move or the contact term is what a quadrature makes of it
   };
   /// u: coefficients of each membrane; those of a conforming space take Space::lift of the data on the held boundary (Bernstein: brought in
   /// order, docs/methods/membranes.md, 5). Over an obstacle only u[0] is read. `lambda`: the non-negative multiplier, densities of degree
@@ -94,6 +95,8 @@ class FeasiblePair {
   /// Collective.
   Bulge bulge(const FeasiblePair& before, const FeasiblePair& after) const;
 
+  /// Whether psi is its interpolant at all quadrature points, up to round-off.
+  bool obstacle_is_interpolated() const;
   /// |||lift of g - g_h||| over all cells.
   double boundary_energy() const;
   std::size_t bytes() const;  ///< held for the mesh

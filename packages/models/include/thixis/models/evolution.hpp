@@ -94,8 +94,10 @@ class Evolution {
   // Over ]0, t_n], the steps accepted.
   virtual std::optional<double> energy_error() const { return {}; }                        ///< if the exact solution is known
   virtual std::optional<complementarity::Estimate> estimate_so_far() const { return {}; }  ///< where every step was estimated
+  /// What keeps it from being guaranteed, a clause each.
+  virtual std::vector<std::string> doubts() const { return {}; }
   /// What estimate_so_far() is, in words before a number.
-  virtual std::string bound_name() const { return "energy error guaranteed to be at most"; }
+  virtual std::string bound_name() const { return "energy error at most"; }
   virtual std::vector<Balance> balances() const { return {}; }
 
   // Of X at the end of a step, or of X^0.

@@ -56,6 +56,8 @@ class Discretization {
   /// The bound on the error at any X, an iterate or the solution. What it needs of the mesh is set up at the first call; a run that never
   /// asks pays nothing. Collective; throws InputError where the scene has no bound.
   virtual complementarity::Estimate estimate(const algebra::Vector& X) = 0;
+  /// What keeps `estimate` from being guaranteed, a clause each, after its first call.
+  virtual std::vector<std::string> doubts() const { return {}; }
   /// Of the last call of `estimate`.
   virtual CellEstimates cell_estimates() const = 0;
   /// What is held for them on this rank; 0 before the first.
