@@ -98,7 +98,7 @@ class Run {
     complementarity::StoppingParams stopping = params_.stopping;
     stopping.absolute_tolerance += evolution_.round_off();
     out_.last = complementarity::newton(evolution_.problem(), X, newton, stopping, params_.linear.check_every, on_step(step.end),
-                                        [this](const Vector& iterate) { return evolution_.estimate(iterate); });
+                                        [this](const Vector& iterate) { return look(iterate); });
     out_.at.newton_iterations += out_.last.steps;
     out_.at.linear_iterations += out_.last.linear_iterations;
     if (!out_.last.converged || !std::isfinite(algebra::norm2(X))) return false;
@@ -107,6 +107,14 @@ class Run {
       eta_ = out_.last.estimate ? *out_.last.estimate : evolution_.estimate(X);
     }
     return true;
+  }
+
+  /// The estimate at an iterate, and, for the history, its error.
+  complementarity::Estimate look(const Vector& iterate) {
+    const auto estimate = evolution_.estimate(iterate);
+    const core::Region region("verification");
+    if (params_.output.history) error_at_look_ = evolution_.step_energy_error(iterate);
+    return estimate;
   }
 
   bool cut(const models::TimeStep& step) {
@@ -187,9 +195,13 @@ class Run {
     complementarity::NewtonObserver newton;
     newton.message = observer_.message;
     if (observer_.newton)
-      newton.step = [this, end](const complementarity::NewtonRecord& record) { observer_.newton(out_.at, end, record); };
+      newton.step = [this, end](const complementarity::NewtonRecord& record) {
+        observer_.newton(out_.at, end, record, record.estimate ? error_at_look_ : std::nullopt);
+      };
     if (observer_.check)
-      newton.linear = [this, end](const complementarity::LinearRecord& record) { observer_.check(out_.at, end, record); };
+      newton.linear = [this, end](const complementarity::LinearRecord& record) {
+        observer_.check(out_.at, end, record, record.estimate ? error_at_look_ : std::nullopt);
+      };
     return newton;
   }
 
@@ -200,6 +212,7 @@ class Run {
   StepControl control_;
   EvolutionOutcome out_;
   bool took_steps_ = false;
+  std::optional<double> error_at_look_;           ///< of the step, where its estimate was asked for last
   std::optional<complementarity::Estimate> eta_;  ///< of the last attempt, where the error is estimated
 };
 
