@@ -31,7 +31,7 @@ output::Checkpoint checkpoint_frame(const RunParams& params, const core::Deck& d
   RunParams as_run = params;
   as_run.output.directory = absolute(params.output.directory);
   output::Checkpoint frame;
-  frame.deck = core::to_xml(RunParams::schema(), as_run);
+  frame.deck = as_run.as_deck();
   frame.folder = absolute(deck.folder());
   return frame;
 }

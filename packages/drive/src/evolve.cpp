@@ -136,7 +136,7 @@ class Run {
     complementarity::StoppingParams stopping = params_.stopping;
     stopping.absolute_tolerance += evolution_.round_off();
     out_.last = complementarity::newton(evolution_.problem(), X, newton, stopping, params_.linear.check_every, on_step(step.end),
-                                        [this](const Vector& iterate) { return evolution_.estimate(iterate); });
+                                        [this](const Vector& iterate) { return look(iterate); });
     out_.at.newton_iterations += out_.last.steps;
     out_.at.linear_iterations += out_.last.linear_iterations;
     if (!out_.last.converged || !std::isfinite(algebra::norm2(X)) || objected(X)) return false;
@@ -145,6 +145,14 @@ class Run {
       eta_ = out_.last.estimate ? *out_.last.estimate : evolution_.estimate(X);
     }
     return true;
+  }
+
+  /// The estimate at an iterate, and, for the history, its error.
+  complementarity::Estimate look(const Vector& iterate) {
+    const auto estimate = evolution_.estimate(iterate);
+    const core::Region region("verification");
+    if (params_.output.history) error_at_look_ = evolution_.step_energy_error(iterate);
+    return estimate;
   }
 
   /// Whether the model refuses what the nonlinear solver takes for a solution.
@@ -251,9 +259,13 @@ class Run {
     complementarity::NewtonObserver newton;
     newton.message = observer_.message;
     if (observer_.newton)
-      newton.step = [this, end](const complementarity::NewtonRecord& record) { observer_.newton(out_.at, end, record); };
+      newton.step = [this, end](const complementarity::NewtonRecord& record) {
+        observer_.newton(out_.at, end, record, record.estimate ? error_at_look_ : std::nullopt);
+      };
     if (observer_.check)
-      newton.linear = [this, end](const complementarity::LinearRecord& record) { observer_.check(out_.at, end, record); };
+      newton.linear = [this, end](const complementarity::LinearRecord& record) {
+        observer_.check(out_.at, end, record, record.estimate ? error_at_look_ : std::nullopt);
+      };
     return newton;
   }
 
@@ -266,6 +278,7 @@ class Run {
   bool took_steps_ = false;
   bool remarked_ = false;                         ///< one remark is enough
   bool at_its_end_ = true;                        ///< X is the end of the step that the evolution knows of, not its begin
+  std::optional<double> error_at_look_;           ///< of the step, where its estimate was asked for last
   std::optional<complementarity::Estimate> eta_;  ///< of the last attempt, where the error is estimated
 };
 

@@ -27,10 +27,14 @@ FollowEvolution::FollowEvolution(const output::RunDirectory& directory, const Ru
 
 EvolutionObserver FollowEvolution::observer() {
   EvolutionObserver observer;
-  observer.newton = [this](const TimePosition& at, double end, const complementarity::NewtonRecord& record) { newton(at, end, record); };
+  observer.newton = [this](const TimePosition& at, double end, const complementarity::NewtonRecord& record, std::optional<double> error) {
+    newton(at, end, record, error);
+  };
   // under the exact rule nobody looks at linear iterates, and none is formed, unless the user wants to see the estimate there
   if (params_.stopping.rule != complementarity::StoppingRule::exact || params_.stopping.estimate.value_or(false))
-    observer.check = [this](const TimePosition& at, double end, const complementarity::LinearRecord& record) { check(at, end, record); };
+    observer.check = [this](const TimePosition& at, double end, const complementarity::LinearRecord& record, std::optional<double> error) {
+      check(at, end, record, error);
+    };
   observer.retry = [this](const TimePosition& at, double length, const std::string& why, double next) { retry(at, length, why, next); };
   observer.refined = [](const TimePosition& at, GlobalIndex marked, const models::Evolution& evolution) {
     log::info("{:>6}  {} cells were refined: {} cells, {} unknowns", at.step + 1, marked, evolution.cells(),
@@ -122,7 +126,7 @@ void FollowEvolution::retry(const TimePosition& at, double length, const std::st
 }
 
 output::HistoryRow FollowEvolution::row_within(const TimePosition& at, double end, int newton, int linear, double residual,
-                                               const std::optional<complementarity::Estimate>& eta) const {
+                                               const std::optional<complementarity::Estimate>& eta, std::optional<double> error) const {
   output::HistoryRow row;
   row.time_step = at.step + 1;
   row.time = end;
@@ -130,21 +134,22 @@ output::HistoryRow FollowEvolution::row_within(const TimePosition& at, double en
   row.linear = linear;
   row.residual = residual;
   set_estimate(row, eta);
+  row.energy_error = error;
   row.seconds = seconds();
   return row;
 }
 
-void FollowEvolution::newton(const TimePosition& at, double end, const complementarity::NewtonRecord& record) {
+void FollowEvolution::newton(const TimePosition& at, double end, const complementarity::NewtonRecord& record, std::optional<double> error) {
   log::detail("{:>10} {:>3}{:>38}{:>10}{:>13.4e}{}", "Newton", record.step, record.linear_iterations, record.active, record.residual,
               estimate_columns(record.estimate));
-  output::HistoryRow row = row_within(at, end, record.step, record.linear_iterations, record.residual, record.estimate);
+  output::HistoryRow row = row_within(at, end, record.step, record.linear_iterations, record.residual, record.estimate, error);
   row.active = record.active;
   row.changed = record.changed;
   history_.append(row);
 }
 
-void FollowEvolution::check(const TimePosition& at, double end, const complementarity::LinearRecord& record) {
-  history_.append(row_within(at, end, record.step, record.iteration, record.residual, record.estimate));
+void FollowEvolution::check(const TimePosition& at, double end, const complementarity::LinearRecord& record, std::optional<double> error) {
+  history_.append(row_within(at, end, record.step, record.iteration, record.residual, record.estimate, error));
 }
 
 }  // namespace thixis::drive

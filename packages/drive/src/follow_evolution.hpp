@@ -29,9 +29,9 @@ class FollowEvolution {
             const complementarity::ActiveSet& active);
   /// A row of the history within a step that ends at `end`.
   output::HistoryRow row_within(const TimePosition& at, double end, int newton, int linear, double residual,
-                                const std::optional<complementarity::Estimate>& eta) const;
-  void newton(const TimePosition& at, double end, const complementarity::NewtonRecord& record);
-  void check(const TimePosition& at, double end, const complementarity::LinearRecord& record);
+                                const std::optional<complementarity::Estimate>& eta, std::optional<double> error) const;
+  void newton(const TimePosition& at, double end, const complementarity::NewtonRecord& record, std::optional<double> error);
+  void check(const TimePosition& at, double end, const complementarity::LinearRecord& record, std::optional<double> error);
   void retry(const TimePosition& at, double length, const std::string& why, double next) const;
   std::string stop(const TimePosition& at, double next_length, const models::Evolution& evolution, const algebra::Vector& X);
   void show(int step, double time, const models::Evolution& evolution, const algebra::Vector& X, const complementarity::ActiveSet& active);

@@ -5,6 +5,7 @@
 #include "sizes.hpp"
 #include "step_control.hpp"
 #include "thixis/core/timer.hpp"
+#include "unchanged.hpp"
 
 namespace thixis::drive {
 
@@ -16,6 +17,7 @@ void check_ahead(const RunParams& params, const models::Model& model) {
 core::ExitCode run(const RunParams& params, const models::Model& model, const core::Deck& deck, const core::Comm& comm,
                    const Versions& versions, const output::StoredCheckpoint* stored) {
   core::reset_regions();
+  if (stored) check_unchanged(*stored, params);
   require_memory(params, comm);
   if (const auto* unsteady = dynamic_cast<const models::UnsteadyModel*>(&model))
     return run_unsteady(params, *unsteady, deck, comm, versions, stored);

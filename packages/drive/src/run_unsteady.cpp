@@ -11,6 +11,7 @@
 #include "step_control.hpp"
 #include "thixis/algebra/tpetra.hpp"
 #include "thixis/core/timer.hpp"
+#include "thixis/drive/run.hpp"
 
 namespace thixis::drive {
 namespace {
@@ -29,7 +30,7 @@ std::optional<double> effectivity(const models::Evolution& evolution) {
   return bound->total / *error;
 }
 
-Found found(const models::Evolution& evolution, const EvolutionOutcome& outcome) {
+Found found(const RunParams& params, const models::Model& model, const models::Evolution& evolution, const EvolutionOutcome& outcome) {
   Found found;
   found.solved = !outcome.not_wanted;
   if (found.solved) {
@@ -48,6 +49,9 @@ Found found(const models::Evolution& evolution, const EvolutionOutcome& outcome)
     for (const models::Balance& balance : evolution.balances())
       (balance.name == "water" ? found.water_balance : found.hydrogen_balance) = balance.worst_step;
     found.front = evolution.front(*outcome.X);
+    found.contact = evolution.contact(*outcome.X);
+    if (!params.expect.at.empty())
+      found.at = values_by_name(params.expect, model.point_fields(), evolution.values_at(wanted(params).expected, *outcome.X));
   }
   found.unknowns = evolution.sizes().unknowns_all;
   found.cells = evolution.cells();
@@ -82,8 +86,9 @@ std::string effort(const TimePosition& at) {
          (at.retries > 0 ? fmt::format(" ({} attempt{} given up)", at.retries, at.retries == 1 ? "" : "s") : "");
 }
 
-Verdict judge(const RunParams& params, const models::Evolution& evolution, const core::Deck& deck, const EvolutionOutcome& outcome) {
-  const std::string clauses = fmt::format("{}", fmt::join(missed(params.expect, found(evolution, outcome)), "; "));
+Verdict judge(const RunParams& params, const models::Model& model, const models::Evolution& evolution, const core::Deck& deck,
+              const EvolutionOutcome& outcome) {
+  const std::string clauses = fmt::format("{}", fmt::join(missed(params.expect, found(params, model, evolution, outcome)), "; "));
   if (outcome.not_wanted) {
     if (!clauses.empty()) return {ExitCode::target_missed, "not solved (max iterations = 0), and not as expected: " + clauses + "."};
     return {ExitCode::done, "not solved: max iterations = 0 only counts the unknowns."};
@@ -99,11 +104,15 @@ Verdict judge(const RunParams& params, const models::Evolution& evolution, const
     return {ExitCode::not_converged, "not converged: Newton stopped. " + outcome.kkt->sentence(outcome.kkt_tolerance)};
   const auto bound = evolution.estimate_so_far();
   if (params.stopping.target && bound && bound->total > *params.stopping.target)
-    return {ExitCode::target_missed,
-            fmt::format("target missed: {}, not {:g}{}{}{}.", bound_clause(evolution.bound_name(), *bound), *params.stopping.target,
-                        outcome.refinement_limited ? "; adapt/max levels or adapt/max unknowns kept the mesh from becoming finer" : "",
-                        outcome.steps_too_long ? "; most of it is the error in time: take shorter steps (time/step)" : "",
-                        clauses.empty() ? "" : "; besides, not as expected: " + clauses)};
+    return {
+        ExitCode::target_missed,
+        fmt::format(
+            "target missed: {}, not {:g}{}{}{}.", bound_clause(evolution.bound_name(), *bound), *params.stopping.target,
+            outcome.refinement_limited
+                ? "; adapt/max levels or adapt/max unknowns kept the mesh from becoming finer: allow more, or take a higher method/degree"
+                : "",
+            outcome.steps_too_long ? "; most of it is the error in time: take shorter steps (time/step)" : "",
+            clauses.empty() ? "" : "; besides, not as expected: " + clauses)};
   if (!clauses.empty()) return {ExitCode::target_missed, "solved, but not as expected: " + clauses + "."};
   return {ExitCode::done, fmt::format("solved in {}{}.", effort(outcome.at), qualities(params, evolution, outcome))};
 }
@@ -163,7 +172,7 @@ core::ExitCode run_unsteady(const RunParams& params, const models::UnsteadyModel
   std::unique_ptr<models::Evolution> evolution;
   {
     const core::Region region("mesh");
-    evolution = model.evolve(params.mesh, comm, deck.folder(), params.output.model_names());
+    evolution = model.evolve(params.mesh, comm, deck.folder(), wanted(params));
   }
   output::RunDirectory directory(params.output.directory);
   const EvolutionCheckpoint checkpoint(directory.checkpoint(), params, deck);
@@ -171,7 +180,7 @@ core::ExitCode run_unsteady(const RunParams& params, const models::UnsteadyModel
   const StoredEvolution from = stored ? stored_evolution(*stored) : StoredEvolution{};
   if (stored) check_restart(*stored, from, params, goes_on, *evolution);
   evolution->check(known_times(*params.time, evolution->jumps(), from.at.time));
-  open(directory, params, goes_on, comm);
+  open(directory, params, deck, goes_on, comm);
   introduce(deck, model, comm, versions);
   if (stored) {
     say_where(from.at);
@@ -197,7 +206,7 @@ core::ExitCode run_unsteady(const RunParams& params, const models::UnsteadyModel
     if (!outcome.solved) invite = invitation(checkpoint.path(), outcome);
     follow.finish(*evolution, outcome);
   }
-  const Verdict verdict = judge(params, *evolution, deck, outcome);
+  const Verdict verdict = judge(params, model, *evolution, deck, outcome);
   summarize(params, model, *evolution, outcome, verdict, clock.seconds(), versions).write(directory.summary(), comm);
   if (!outcome.not_wanted) say_doubts(evolution->estimate_so_far(), evolution->doubts());
   return conclude(directory, verdict, invite, comm, clock.seconds());

@@ -274,6 +274,17 @@ void check_functions(const scene::MembraneScene& scene, const std::array<scene::
   check_degrees(scene, boundary, mesh);
 }
 
+std::vector<mesh::Place> place(const std::vector<Probe>& probes, const mesh::Mesh& mesh) {
+  std::vector<std::array<double, 2>> points;
+  for (const auto& probe : probes) points.push_back(probe.at);
+  auto places = mesh::locate(mesh, points);
+  for (std::size_t i = 0; i < probes.size(); ++i)
+    if (!places[i].inside)
+      throw core::InputError(fmt::format("{}: the point ({:.6g}, {:.6g}) lies outside of the mesh; take one inside.", probes[i].path,
+                                         points[i][0], points[i][1]));
+  return places;
+}
+
 void check_field_names(const scene::MembraneScene& scene, const std::vector<std::string>& names) {
   std::vector<std::string> known = {"lambda", "gap", "active"};
   for (int alpha = scene.count - 1; alpha >= 0; --alpha) known.insert(known.begin(), named(scene, "u", alpha));

@@ -4,8 +4,10 @@
 #include <vector>
 
 #include "thixis/mesh/build.hpp"
+#include "thixis/mesh/locate.hpp"
 #include "thixis/mesh/mesh.hpp"
 #include "thixis/method/space.hpp"
+#include "thixis/models/model.hpp"
 #include "thixis/scene/membranes.hpp"
 
 /// What is wrong with a membrane scene on a mesh, found before anything is computed or written. All throw InputError on all ranks.
@@ -44,6 +46,9 @@ void check_order(const scene::FieldPtr (&initial)[2], const method::MethodParams
 /// run will ask for it. The functions of catalogued cases are known to be sound and not asked. Collective.
 void check_functions(const scene::MembraneScene& scene, const std::array<scene::FieldPtr, 3>& initial, const method::MethodParams& method,
                      const mesh::Mesh& mesh);
+
+/// Where points lie; throws for one outside of the mesh. Collective.
+std::vector<mesh::Place> place(const std::vector<Probe>& probes, const mesh::Mesh& mesh);
 
 /// Throws for names of fields that this model does not have.
 void check_field_names(const scene::MembraneScene& scene, const std::vector<std::string>& names);

@@ -39,13 +39,14 @@ struct Pair {
 class ParabolicEvolution final : public Evolution {
  public:
   ParabolicEvolution(const scene::MembraneScene& scene, const method::SpaceFactory& make_space, const method::MethodParams& method,
-                     const algebra::LinearParams& linear, mesh::Hierarchy hierarchy, std::optional<double> friedrichs)
+                     const algebra::LinearParams& linear, mesh::Hierarchy hierarchy, std::optional<double> friedrichs, std::vector<Probe> probes)
       : scene_(scene),
         make_space_(make_space),
         method_(method),
         linear_(linear),
         hierarchy_(std::move(hierarchy)),
-        friedrichs_(friedrichs) {
+        friedrichs_(friedrichs),
+        probes_(std::move(probes)) {
     on_mesh_ = make_level();
   }
 
@@ -169,6 +170,11 @@ class ParabolicEvolution final : public Evolution {
     return std::sqrt(squared_error_);
   }
 
+  std::optional<double> step_energy_error(const Vector& X) const override {
+    if (!scene_.exact) return std::nullopt;
+    return std::sqrt(step_error(at(X)));
+  }
+
   /// Nothing before the first step and after one that was not estimated.
   std::optional<complementarity::Estimate> estimate_so_far() const override {
     if (!bounded_ || !bound_) return std::nullopt;
@@ -194,36 +200,27 @@ class ParabolicEvolution final : public Evolution {
   std::vector<std::string> series_names() const override {
     std::vector<std::string> names = {"contact_area", "contact_force", "largest_gap"};
     if (scene_.exact) names.insert(names.end(), {"energy_error", "l2_error_u1", "l2_error_u2"});
+    for (std::size_t i = 0; i < probes_.size(); ++i)
+      for (const auto& field : MembraneLevel::point_fields(scene_)) names.push_back(i == 0 ? field : fmt::format("{}_{}", field, i + 1));
     return names;
   }
 
-  /// (sum_l (psi_l, 1) over the points in contact, sum_l <lambda_h, psi_l>, max_l gap_l; of the errors at this time the energy norm and the
-  /// L² norms).
+  /// (contact area and force, max_l gap_l; of the errors at this time the energy norm and the L² norms; the fields at the probes).
   std::vector<double> series(const Vector& X) const override {
-    const Fields x = on_mesh_->fields(X);
-    const MembraneProblem& problem = on_mesh_->problem();
-    Vector opening(problem.points()), scale(problem.points());
-    gap(problem.membranes(), x.u, opening);
-    problem.scaling(scale);
-    double area = 0, force = 0, largest = 0;
-    {
-      const auto read = [](const Vector& v) { return algebra::host_view(v); };
-      const auto weight = read(areas()), K = read(opening), s = read(scale), lambda = read(x.lambda), D = read(space().pairing());
-      for (std::size_t l = 0; l < K.extent(0); ++l) {
-        if (s(l) * lambda(l) > K(l)) area += weight(l);
-        force += D(l) * lambda(l);
-        largest = std::max(largest, K(l));
-      }
-    }
-    std::vector<double> values = {comm().sum(area), comm().sum(force), comm().max(largest)};
+    const Contact contact = on_mesh_->contact(X);
+    std::vector<double> values = {contact.area, contact.force, on_mesh_->largest_gap(X)};
     if (scene_.exact) {
       const Pair now = at(X);
       const double t = on_mesh_->time();
       values.push_back(std::sqrt(squared_energy_error(now, t)));
       for (int alpha = 0; alpha < 2; ++alpha) values.push_back(std::sqrt(space().l2_error(now.u[alpha], *scene_.exact->u[alpha], t)));
     }
+    if (!probes_.empty())
+      for (const double value : on_mesh_->values_at(probes_, X)) values.push_back(value);
     return values;
   }
+  std::optional<Contact> contact(const Vector& X) const override { return on_mesh_->contact(X); }
+  std::vector<double> values_at(const std::vector<Probe>& probes, const Vector& X) const override { return on_mesh_->values_at(probes, X); }
 
   output::Grid grid() const override { return space().display(); }
   std::vector<output::FieldData> fields(const Vector& X, const complementarity::ActiveSet& active,
@@ -304,7 +301,7 @@ class ParabolicEvolution final : public Evolution {
   void go_to_finest() {
     on_mesh_ = make_level();
     bound_.reset();
-    X_before_ = before_last_ = areas_ = Teuchos::null;
+    X_before_ = before_last_ = Teuchos::null;
     weight_ = 0;
     begun_ = open_ = estimated_ = false;
   }
@@ -353,23 +350,13 @@ class ParabolicEvolution final : public Evolution {
     return step_.length() * sum / 2;
   }
 
-  /// (psi_l, 1) at the contact points; set up at the first call. Collective.
-  const Vector& areas() const {
-    if (areas_.is_null()) {
-      const std::vector<scene::FieldPtr> zero(space().mesh().tags.size(), scene::constant(0));
-      const auto one = scene::constant(1);
-      areas_ = Teuchos::rcp(new Vector(space().map()));
-      space().load(*one, *one, {zero, zero}, 0, *areas_);
-    }
-    return *areas_;
-  }
-
   const scene::MembraneScene& scene_;
   const method::SpaceFactory& make_space_;
   method::MethodParams method_;
   algebra::LinearParams linear_;
   mesh::Hierarchy hierarchy_;
   std::optional<double> friedrichs_;                ///< given in the deck
+  std::vector<Probe> probes_;                       ///< of series.csv
   std::map<int, std::vector<GlobalIndex>> marked_;  ///< cells whose refinement made this level
   std::unique_ptr<MembraneLevel> on_mesh_;
   double weight_ = 0;  ///< 1/tau in the matrices; 0: none yet
@@ -386,7 +373,6 @@ class ParabolicEvolution final : public Evolution {
   bool estimated_ = false;                           ///< in the step begun
   bool bounded_ = false;                             ///< every step so far was estimated
   std::map<std::string, double> restored_bound_;     ///< sums of a checkpoint
-  mutable Teuchos::RCP<Vector> areas_;
 };
 
 class ParabolicMembranes final : public UnsteadyModel {
@@ -403,6 +389,7 @@ class ParabolicMembranes final : public UnsteadyModel {
       if (!scene_.initial[alpha] && scene_.exact) scene_.initial[alpha] = scene_.exact->u[alpha];
   }
   std::string name() const override { return "parabolic membranes"; }
+  std::vector<std::string> point_fields() const override { return MembraneLevel::point_fields(scene_); }
   std::string case_name() const override { return scene_.name == "data" ? "" : scene_.name; }
 
   void check(const mesh::MeshParams& params, const std::vector<double>& times) const override {
@@ -410,14 +397,16 @@ class ParabolicMembranes final : public UnsteadyModel {
   }
 
   std::unique_ptr<Evolution> evolve(const mesh::MeshParams& params, const core::Comm& comm, const std::string& folder,
-                                    const std::vector<std::string>& field_names) const override {
+                                    const Wanted& wanted) const override {
     mesh::Hierarchy hierarchy;
     {
       const core::Region region("mesh");
       hierarchy = mesh::build(params, comm, folder);
     }
     const mesh::Mesh& mesh = hierarchy.finest();
-    check_field_names(scene_, field_names);
+    check_field_names(scene_, wanted.fields);
+    place(wanted.expected, mesh);
+    place(wanted.probes, mesh);
     for (int alpha = 0; alpha < 2; ++alpha)
       if (!scene_.initial[alpha])
         throw core::InputError(
@@ -425,7 +414,7 @@ class ParabolicMembranes final : public UnsteadyModel {
     check_functions(scene_, {scene_.initial[0], scene_.initial[1], nullptr}, method_, mesh);
     check_order({scene_.initial[0], scene_.initial[1]}, method_, mesh);
     if (check_mesh_) check_mesh_(mesh, {boundary_of(scene_, mesh).dirichlet, scene_.interface_level_set, method_});
-    return std::make_unique<ParabolicEvolution>(scene_, make_space_, method_, linear_, std::move(hierarchy), friedrichs_);
+    return std::make_unique<ParabolicEvolution>(scene_, make_space_, method_, linear_, std::move(hierarchy), friedrichs_, wanted.probes);
   }
 
  private:

@@ -79,7 +79,7 @@ class BoundSoFar {
 class TwoPhaseEvolution final : public Evolution {
  public:
   TwoPhaseEvolution(fv::Grid grid, const scene::TwoPhaseScene& scene, const algebra::LinearParams& linear, double seconds_per_unit,
-                    const std::vector<double>& probes, const TwoPhaseBoundParams& bound)
+                    const std::vector<Probe>& probes, const TwoPhaseBoundParams& bound)
       : bound_params_(bound),
         flow_(std::move(grid), scene, seconds_per_unit),
         initial_(flow_.initial()),
@@ -188,6 +188,16 @@ class TwoPhaseEvolution final : public Evolution {
     for (const auto& at : probes_(X)) {
       const PhaseState state = flow_.laws().state(at[gas_saturation], at[pressure], at[dissolved]);
       values.insert(values.end(), {state.s_g, state.P, state.P_g.value});
+    }
+    return values;
+  }
+
+  std::vector<double> values_at(const std::vector<Probe>& probes, const Vector& X) const override {
+    std::vector<double> values;
+    if (probes.empty()) return values;
+    for (const auto& at : TwoPhaseProbes(flow_.grid(), probes)(X)) {
+      const PhaseState state = flow_.laws().state(at[gas_saturation], at[pressure], at[dissolved]);
+      values.insert(values.end(), {state.s_g, state.P, state.P_g.value, state.chi});
     }
     return values;
   }
@@ -363,35 +373,36 @@ std::vector<output::FieldData> TwoPhaseEvolution::fields(const Vector& X, const 
 
 class TwoPhaseModel final : public UnsteadyModel {
  public:
-  TwoPhaseModel(scene::TwoPhaseScene scene, algebra::LinearParams linear, double seconds_per_unit, std::vector<double> probes,
-                const TwoPhaseBoundParams& bound)
-      : scene_(std::move(scene)), linear_(linear), seconds_per_unit_(seconds_per_unit), probes_(std::move(probes)), bound_(bound) {}
+  TwoPhaseModel(scene::TwoPhaseScene scene, algebra::LinearParams linear, double seconds_per_unit, const TwoPhaseBoundParams& bound)
+      : scene_(std::move(scene)), linear_(linear), seconds_per_unit_(seconds_per_unit), bound_(bound) {}
 
   std::string name() const override { return "two-phase"; }
+  std::vector<std::string> point_fields() const override { return {"s_g", "p_l", "p_g", "chi"}; }
   std::string case_name() const override { return scene_.name == "flow" ? "" : scene_.name; }
 
   std::unique_ptr<Evolution> evolve(const mesh::MeshParams& mesh, const core::Comm& comm, const std::string& folder,
-                                    const std::vector<std::string>& field_names) const override {
-    for (const auto& name : field_names)
+                                    const Wanted& wanted) const override {
+    for (const auto& name : wanted.fields)
       if (std::find(names_of_fields().begin(), names_of_fields().end(), name) == names_of_fields().end())
         throw core::InputError(
             fmt::format("output/fields: there is no field '{}'; write all, none, or some of {}.", name, core::join(names_of_fields())));
-    return std::make_unique<TwoPhaseEvolution>(fv::build(mesh, comm, folder), scene_, linear_, seconds_per_unit_, probes_, bound_);
+    fv::Grid grid = fv::build(mesh, comm, folder);
+    if (!wanted.expected.empty()) TwoPhaseProbes(grid, wanted.expected);
+    return std::make_unique<TwoPhaseEvolution>(std::move(grid), scene_, linear_, seconds_per_unit_, wanted.probes, bound_);
   }
 
  private:
   scene::TwoPhaseScene scene_;
   algebra::LinearParams linear_;
   double seconds_per_unit_;
-  std::vector<double> probes_;
   TwoPhaseBoundParams bound_;
 };
 
 }  // namespace
 
 std::unique_ptr<UnsteadyModel> two_phase(scene::TwoPhaseScene scene, algebra::LinearParams linear, double seconds_per_unit,
-                                         std::vector<double> probes, const TwoPhaseBoundParams& bound) {
-  return std::make_unique<TwoPhaseModel>(std::move(scene), linear, seconds_per_unit, std::move(probes), bound);
+                                         const TwoPhaseBoundParams& bound) {
+  return std::make_unique<TwoPhaseModel>(std::move(scene), linear, seconds_per_unit, bound);
 }
 
 }  // namespace thixis::models

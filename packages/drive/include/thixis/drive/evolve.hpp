@@ -31,9 +31,9 @@ struct StepRecord {
 
 /// Who follows a run in time; functions may be empty. Called on all ranks with equal values.
 struct EvolutionObserver {
-  /// Within step n = at.step + 1, which ends at `end`.
-  std::function<void(const TimePosition& at, double end, const complementarity::NewtonRecord&)> newton;
-  std::function<void(const TimePosition& at, double end, const complementarity::LinearRecord&)> check;
+  /// Within step n = at.step + 1, which ends at `end`; `error`: of the step, where its estimate was computed and the solution is known.
+  std::function<void(const TimePosition& at, double end, const complementarity::NewtonRecord&, std::optional<double> error)> newton;
+  std::function<void(const TimePosition& at, double end, const complementarity::LinearRecord&, std::optional<double> error)> check;
   /// An attempt was given up: why, and the length of the next one.
   std::function<void(const TimePosition& at, double length, const std::string& why, double next)> retry;
   /// The mesh was refined before the step is begun again.

@@ -92,7 +92,9 @@ class Evolution {
   virtual void accept(const algebra::Vector& X) = 0;
 
   // Over ]0, t_n], the steps accepted.
-  virtual std::optional<double> energy_error() const { return {}; }                        ///< if the exact solution is known
+  virtual std::optional<double> energy_error() const { return {}; }  ///< if the exact solution is known
+  /// Of the step begun alone, if it ended with X: what `estimate` bounds.
+  virtual std::optional<double> step_energy_error(const algebra::Vector&) const { return {}; }
   virtual std::optional<complementarity::Estimate> estimate_so_far() const { return {}; }  ///< where every step was estimated
   /// What keeps it from being guaranteed, a clause each.
   virtual std::vector<std::string> doubts() const { return {}; }
@@ -103,6 +105,9 @@ class Evolution {
   // Of X at the end of a step, or of X^0.
   virtual complementarity::KktData kkt_data(const algebra::Vector& X) const = 0;
   virtual std::optional<double> front(const algebra::Vector&) const { return {}; }
+  virtual std::optional<Contact> contact(const algebra::Vector&) const { return {}; }
+  /// The fields of Model::point_fields at points, [probe][field], on all ranks. Collective.
+  virtual std::vector<double> values_at(const std::vector<Probe>&, const algebra::Vector&) const { return {}; }
   /// Columns of series.csv behind the time, and their values.
   virtual std::vector<std::string> series_names() const { return {}; }
   virtual std::vector<double> series(const algebra::Vector&) const { return {}; }
@@ -129,7 +134,7 @@ class UnsteadyModel : public Model {
   /// On the mesh of the deck (`folder`: that of the deck). Throws InputError for what only a mesh shows, as StationaryModel::check does,
   /// before anything is computed or written. Collective.
   virtual std::unique_ptr<Evolution> evolve(const mesh::MeshParams& mesh, const core::Comm& comm, const std::string& folder,
-                                            const std::vector<std::string>& field_names) const = 0;
+                                            const Wanted& wanted) const = 0;
 };
 
 }  // namespace thixis::models
