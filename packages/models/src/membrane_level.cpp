@@ -36,6 +36,8 @@ void keep_in_order(const Coefficients& upper, const Coefficients& lower, const s
 }
 
 
+std::string displacement(int count, int alpha) { return count == 1 ? "u" : alpha == 0 ? "u1" : "u2"; }
+
 std::vector<double> values_of(const scene::Field& field, const std::vector<Probe>& probes) {
   std::vector<double> x, y, values(probes.size());
   for (const auto& probe : probes) {
