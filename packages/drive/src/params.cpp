@@ -35,10 +35,13 @@ void check_steps(const TimeParams& params, core::Problems& problems) {
                  fmt::format("makes {:.3g} steps until the end at {:g}, and a run may have {:g}; write at least {:.3g}.",
                              params.end / least, params.end, TimeParams::most_steps, params.end / TimeParams::most_steps));
   const double resolved = TimeParams::resolution * params.end;
-  for (const auto& [name, length] : {std::pair("step", params.step), std::pair("smallest", params.smallest.value_or(params.step))})
+  const auto require_resolved = [&](const char* name, double length) {
     if (length < resolved)
       problems.add(name,
                    fmt::format("is lost among the digits of the time at the end, {:g}; write at least {:.3g}.", params.end, resolved));
+  };
+  require_resolved("step", params.step);
+  if (params.smallest) require_resolved("smallest", *params.smallest);
 }
 
 bool of_estimate(const std::string& name) { return std::count(names_of_estimate().begin(), names_of_estimate().end(), name) > 0; }
