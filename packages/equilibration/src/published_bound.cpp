@@ -11,7 +11,7 @@
 #include "thixis/equilibration/multilevel_flux.hpp"
 #include "thixis/equilibration/patch_flux.hpp"
 #include "thixis/mesh/ancestry.hpp"
-#include "thixis/mesh/host.hpp"
+#include "thixis/mesh/statistics.hpp"
 #include "thixis/reference/quadrature.hpp"
 
 namespace thixis::equilibration {
@@ -258,16 +258,8 @@ PublishedBound published_bound(const method::PolynomialSpace& space, const Conta
 }
 
 double friedrichs_of_box(const mesh::Mesh& mesh) {
-  const auto x = mesh::on_host(mesh).coordinates;
-  std::vector<double> corner(4, -1e300);  // upper, -lower
-  for (LocalIndex v = 0; v < mesh.vertices; ++v)
-    for (int d = 0; d < 2; ++d) {
-      corner[d] = std::max(corner[d], x(v, d));
-      corner[2 + d] = std::max(corner[2 + d], -x(v, d));
-    }
-  mesh.comm.max(corner);
-  const double a = corner[0] + corner[2], b = corner[1] + corner[3];
-  return 1 / (pi * std::hypot(1 / a, 1 / b));
+  const mesh::Box box = mesh::bounding_box(mesh);
+  return 1 / (pi * std::hypot(1 / box.side(0), 1 / box.side(1)));
 }
 
 }  // namespace thixis::equilibration

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
+#include "exact_gradient.hpp"
 #include "thixis/core/error.hpp"
 #include "thixis/mesh/host.hpp"
 #include "thixis/method/quadrature.hpp"
@@ -98,6 +100,11 @@ void check_jumps(const scene::MembraneScene& scene, const Boundary& boundary, co
 void check_data(const scene::MembraneScene& scene, const method::MethodParams& method, const mesh::Mesh& mesh) {
   const auto quadrature = method::make_quadrature(mesh, method::owned_cells(mesh), method.order(), scene.interface_level_set);
   double lowest[2] = {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  std::vector<scene::FieldPtr> exact[2];
+  for (int alpha = 0; scene.exact && alpha < scene.count; ++alpha) {
+    const auto slope = exact_gradient(*scene.exact, alpha, mesh);
+    exact[alpha] = {scene.exact->u[alpha], slope[0], slope[1]};
+  }
   mesh.comm.together([&] {
     const mesh::View<double*> values("thixis::models::data", quadrature.largest_block);
     const auto on_host = Kokkos::create_mirror_view(values);
@@ -105,9 +112,7 @@ void check_data(const scene::MembraneScene& scene, const method::MethodParams& m
       if (scene.obstacle) method::evaluate(*scene.obstacle, 0, block, values);
       for (int alpha = 0; alpha < scene.count; ++alpha) {
         method::evaluate(*scene.force[alpha], 0, block, values);
-        if (scene.exact)
-          for (const auto& known : {scene.exact->u[alpha], scene.exact->gradient[alpha][0], scene.exact->gradient[alpha][1]})
-            method::evaluate(*known, 0, block, values);
+        for (const auto& known : exact[alpha]) method::evaluate(*known, 0, block, values);
         method::evaluate(*scene.tension[alpha], 0, block, values);
         Kokkos::deep_copy(on_host, values);
         for (int q = 0; q < block.points; ++q) lowest[alpha] = std::min(lowest[alpha], on_host(q));
@@ -115,7 +120,7 @@ void check_data(const scene::MembraneScene& scene, const method::MethodParams& m
     });
   });
   for (int alpha = 0; alpha < scene.count; ++alpha)
-    if (const double tension = mesh.comm.min(lowest[alpha]); !(tension > 0))
+    if (const double tension = mesh.comm.min(lowest[alpha]); !(tension >= 1 / scene::largest_value))
       throw core::InputError(fmt::format("scene/data/{}: the tension falls to {:.6g}; give one that is positive everywhere.",
                                          named(scene, "mu", alpha), tension));
 }

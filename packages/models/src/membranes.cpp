@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "exact_gradient.hpp"
 #include "membrane_checks.hpp"
 #include "membrane_kkt.hpp"
 #include "membrane_level.hpp"
@@ -57,7 +58,8 @@ class MembraneDiscretization final : public Discretization {
     const Fields x = on_mesh_->fields(X);
     double sum = 0;
     for (int alpha = 0; alpha < scene_.count; ++alpha)
-      sum += space().energy_error(*scene_.tension[alpha], on_mesh_->membrane(x, alpha), scene_.exact->gradient[alpha], 0);
+      sum += space().energy_error(*scene_.tension[alpha], on_mesh_->membrane(x, alpha),
+                                  exact_gradient(*scene_.exact, alpha, space().mesh()), 0);
     return std::sqrt(sum);
   }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <unordered_set>
 
+#include "exact_gradient.hpp"
 #include "membrane_kkt.hpp"
 #include "membrane_level.hpp"
 #include "thixis/core/error.hpp"
@@ -307,7 +308,7 @@ class ParabolicEvolution final : public Evolution {
   double squared_energy_error(const Pair& now, double t) const {
     double sum = 0;
     for (int alpha = 0; alpha < 2; ++alpha)
-      sum += space().energy_error(*scene_.tension[alpha], now.u[alpha], scene_.exact->gradient[alpha], t);
+      sum += space().energy_error(*scene_.tension[alpha], now.u[alpha], exact_gradient(*scene_.exact, alpha, space().mesh()), t);
     return sum;
   }
 

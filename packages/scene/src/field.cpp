@@ -13,6 +13,12 @@ namespace {
 
 constexpr std::size_t block = 1024;  // temporary coordinates stay in the first-level cache
 
+std::string too_large() {
+  return fmt::format(
+      "too large to compute with, since products of data must be numbers, too: write the data in units in which they are at most {:g}",
+      largest_value);
+}
+
 class Constant final : public Field {
  public:
   explicit Constant(double value) : value_(value) {}
@@ -95,6 +101,7 @@ FieldPtr expression(const std::string& name, const std::string& text, const std:
     if (!parsed.constant()) return std::make_shared<ExpressionField>(name, std::move(parsed), centre);
     const double value = parsed({0, 0, 0, 0});
     if (!std::isfinite(value)) throw core::InputError(fmt::format("'{}' is not a finite number.", text));
+    if (std::abs(value) > largest_value) throw core::InputError(fmt::format("{:.6g} is {}.", value, too_large()));
     return constant(value);
   } catch (const core::InputError& error) {
     throw core::InputError(name + ": " + error.what());
@@ -107,11 +114,14 @@ std::array<FieldPtr, 2> difference_gradient(FieldPtr u, double step) {
 }
 
 void require_finite(const std::string& name, const Points& points, double t, const double* values) {
-  for (std::size_t i = 0; i < points.count; ++i)
-    if (!std::isfinite(values[i]))
-      throw core::InputError(
-          fmt::format("{}: the value at x = {:.6g}, y = {:.6g}, t = {:.6g} is not a finite number; write a function that is defined there.",
-                      name, points.x[i], points.y[i], t));
+  const auto refuse = [&](std::size_t i, const std::string& why) {
+    throw core::InputError(fmt::format("{}: the value at x = {:.6g}, y = {:.6g}, t = {:.6g} {}.", name, points.x[i], points.y[i], t, why));
+  };
+  for (std::size_t i = 0; i < points.count; ++i) {
+    if (std::abs(values[i]) <= largest_value) continue;
+    if (std::isfinite(values[i])) refuse(i, fmt::format("is {:.6g}, {}", values[i], too_large()));
+    refuse(i, "is not a finite number; write a function that is defined there");
+  }
 }
 
 }  // namespace thixis::scene

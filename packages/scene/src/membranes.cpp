@@ -7,8 +7,6 @@
 namespace thixis::scene {
 namespace {
 
-constexpr double difference_step = 1e-6;  // round-off 2e-10 |u|; 1e-6 times a jump of second derivatives within 3e-6 of the interface
-
 /// Reads the expressions of one deck.
 struct Reader {
   const DataParams& data;
@@ -20,8 +18,7 @@ struct Reader {
   FieldPtr operator()(const std::string& path, const core::Formula& formula, const FieldPtr& otherwise) const {
     return formula.empty() ? otherwise : (*this)(path, formula);
   }
-  std::array<FieldPtr, 2> gradient(const std::string& path, const core::Formula& in_x, const core::Formula& in_y, const FieldPtr& u) const {
-    if (in_x.empty()) return difference_gradient(u, difference_step);
+  std::array<FieldPtr, 2> gradient(const std::string& path, const core::Formula& in_x, const core::Formula& in_y) const {
     return {(*this)(path + "_x", in_x), (*this)(path + "_y", in_y)};
   }
 };
@@ -34,7 +31,7 @@ void read_membrane(const Reader& read, const SceneParams& params, const Membrane
   FieldPtr trace;
   if (scene.exact) {
     trace = scene.exact->u[alpha] = read("data/u" + m.index, data.*m.u);
-    scene.exact->gradient[alpha] = read.gradient("data/u" + m.index, data.*m.u_x, data.*m.u_y, trace);
+    scene.exact->gradient[alpha] = read.gradient("data/u" + m.index, data.*m.u_x, data.*m.u_y);
   }
   const FieldPtr rest = scene.default_boundary.value[alpha] = read("data/g" + m.index, data.*m.g, trace);
   for (const auto& [tag, part] : params.boundary) {

@@ -48,7 +48,10 @@ FieldPtr formula(F f, std::string name = "a function of the scene");
 /// derivative jumps by J it is up to J step. u is asked for within 3 steps of the points, beyond the domain as well.
 std::array<FieldPtr, 2> difference_gradient(FieldPtr u, double step);
 
-/// Throws InputError if one of the values at these points is not finite.
+/// Largest absolute value of a datum. Energies are products of up to four data and their reciprocals, and double precision ends at 1e308.
+constexpr double largest_value = 1e60;
+
+/// Throws InputError if one of the values at these points is not finite, or larger than `largest_value`.
 void require_finite(const std::string& name, const Points& points, double t, const double* values);
 
 // ---------------------------------------------------------------------------------------------------------------------------------

@@ -73,7 +73,7 @@ struct BoundaryCondition {
 /// The exact solution, index alpha of a membrane first. Across the interface only the second derivatives and lambda may jump.
 struct ExactMembranes {
   FieldPtr u[2];
-  std::array<FieldPtr, 2> gradient[2];  ///< gradient[alpha][direction]
+  std::array<FieldPtr, 2> gradient[2];  ///< gradient[alpha][direction]; null: not given, to be had by differences of u
   FieldPtr multiplier;                  ///< lambda; may be null
 };
 
