@@ -78,8 +78,9 @@ void add_estimates(const OutputParams& params, const models::CellEstimates& cell
 
 output::SummaryEstimate parts(const complementarity::Estimate& eta, const std::vector<std::string>& doubts) {
   const bool open = eta.promise == complementarity::Promise::up_to_quadrature;
-  return {eta.total, eta.discretization, eta.linearization, eta.algebraic, to_text(eta.promise), open ? doubts : std::vector<std::string>(),
-          {}, eta.time};
+  return {
+      eta.total, eta.discretization, eta.linearization, eta.algebraic, to_text(eta.promise), open ? doubts : std::vector<std::string>(), {},
+      eta.time};
 }
 
 void say_doubts(const std::optional<complementarity::Estimate>& eta, const std::vector<std::string>& doubts) {

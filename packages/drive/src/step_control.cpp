@@ -7,9 +7,9 @@
 namespace thixis::drive {
 namespace {
 
-constexpr double wanted_ratio = 0.5;                                       ///< of the error in time to that in space
-constexpr double most_ratio = 4 * wanted_ratio;                            ///< of a step that is not too long
-constexpr double round_off = 1e-9;                                         ///< of a step: times that are closer are the same
+constexpr double wanted_ratio = 0.5;             ///< of the error in time to that in space
+constexpr double most_ratio = 4 * wanted_ratio;  ///< of a step that is not too long
+constexpr double round_off = 1e-9;               ///< of a step: times that are closer are the same
 
 double ratio(const models::StepErrors& errors) { return errors.time > 0 ? errors.time / std::max(errors.space, errors.negligible) : 0; }
 
@@ -55,7 +55,9 @@ double StepControl::end_of_step(double t) const {
   return t + length_;
 }
 
-double StepControl::smallest() const { return std::max(params_.smallest.value_or(params_.step / (1 << 20)), TimeParams::resolution * params_.end); }
+double StepControl::smallest() const {
+  return std::max(params_.smallest.value_or(params_.step / (1 << 20)), TimeParams::resolution * params_.end);
+}
 
 bool StepControl::cut(double tried) {
   length_ = tried / 2;

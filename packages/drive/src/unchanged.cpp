@@ -6,6 +6,7 @@
 #include <array>
 
 #include "thixis/core/deck.hpp"
+#include "thixis/core/differences.hpp"
 
 namespace thixis::drive {
 namespace {
@@ -24,7 +25,8 @@ bool fixed(const std::string& path) {
 void check_unchanged(const output::StoredCheckpoint& stored, const RunParams& params) {
   const auto before = core::Deck::from_text(stored.deck(), stored.path()).parse(RunParams::schema());
   std::vector<std::string> mistakes;
-  for (const auto& path : core::differences(RunParams::schema(), before, params)) {
+  for (const auto& difference : core::differences(RunParams::schema(), before, params)) {
+    const std::string& path = difference.path;
     if (fixed(path))
       mistakes.push_back(
           fmt::format("{}: the checkpoint '{}' belongs to another model, mesh or method; leave this as it was.", path, stored.path()));

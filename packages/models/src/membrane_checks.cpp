@@ -170,12 +170,11 @@ void check_boundary(const scene::MembraneScene& scene, const Boundary& boundary,
       for (std::size_t i = 0; i < upper.size(); ++i) size = std::max({size, std::abs(upper[i]), std::abs(lower[i])});
       for (std::size_t i = 0; i < upper.size(); ++i)
         if (upper[i] < lower[i] - 1e-12 * size)
-          throw core::InputError(
-              fmt::format("{}: on the boundary '{}' {}: {} = {:.6g} < {} = {:.6g} at ({:.6g}, {:.6g}){}; give boundary data with {} >= {}.",
-                          boundary.named[tag].empty() ? "scene/data/" + named(scene, "g", 0) : "scene/boundary/" + boundary.named[tag],
-                          mesh.tags[tag], one ? "the membrane lies below the obstacle" : "the upper membrane lies below the lower one",
-                          named(scene, "g", 0), upper[i], one ? "psi" : "g2", lower[i], at.x[i], at.y[i],
-                          and_time(t), named(scene, "g", 0), one ? "psi" : "g2"));
+          throw core::InputError(fmt::format(
+              "{}: on the boundary '{}' {}: {} = {:.6g} < {} = {:.6g} at ({:.6g}, {:.6g}){}; give boundary data with {} >= {}.",
+              boundary.named[tag].empty() ? "scene/data/" + named(scene, "g", 0) : "scene/boundary/" + boundary.named[tag], mesh.tags[tag],
+              one ? "the membrane lies below the obstacle" : "the upper membrane lies below the lower one", named(scene, "g", 0), upper[i],
+              one ? "psi" : "g2", lower[i], at.x[i], at.y[i], and_time(t), named(scene, "g", 0), one ? "psi" : "g2"));
     }
   });
   check_jumps(scene, boundary, mesh, t);

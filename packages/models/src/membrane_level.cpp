@@ -35,7 +35,6 @@ void keep_in_order(const Coefficients& upper, const Coefficients& lower, const s
       });
 }
 
-
 std::string displacement(int count, int alpha) { return count == 1 ? "u" : alpha == 0 ? "u1" : "u2"; }
 
 std::vector<double> values_of(const scene::Field& field, const std::vector<Probe>& probes) {

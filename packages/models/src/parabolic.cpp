@@ -39,7 +39,8 @@ struct Pair {
 class ParabolicEvolution final : public Evolution {
  public:
   ParabolicEvolution(const scene::MembraneScene& scene, const method::SpaceFactory& make_space, const method::MethodParams& method,
-                     const algebra::LinearParams& linear, mesh::Hierarchy hierarchy, std::optional<double> friedrichs, std::vector<Probe> probes)
+                     const algebra::LinearParams& linear, mesh::Hierarchy hierarchy, std::optional<double> friedrichs,
+                     std::vector<Probe> probes)
       : scene_(scene),
         make_space_(make_space),
         method_(method),

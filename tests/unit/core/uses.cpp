@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "thixis/core/differences.hpp"
+
 namespace thixis::core {
 namespace {
 
@@ -119,13 +121,16 @@ TEST(Uses, descriptions_tell_the_condition_and_skeletons_heed_it) {
   EXPECT_EQ(mistakes(Deck::from_text(skeleton_of_dg, "deck.xml")), "");
 }
 
-TEST(Uses, differences_are_named_by_their_paths) {
+TEST(Differences, are_named_by_their_paths_and_say_both_values) {
   Whole a, b;
   b.method.penalty = 11;
   b.linear.parts["left"];
-  EXPECT_EQ(differences(Whole::schema(), a, a), std::vector<std::string>{});
-  EXPECT_EQ(differences(Whole::schema(), a, b),
-            (std::vector<std::string>{"method/penalty", "linear/parts/left/name", "linear/parts/left/penalty"}));
+  EXPECT_TRUE(differences(Whole::schema(), a, a).empty());
+  std::vector<std::string> paths;
+  for (const auto& difference : differences(Whole::schema(), a, b)) paths.push_back(difference.path);
+  EXPECT_EQ(paths, (std::vector<std::string>{"method/penalty", "linear/parts/left/name", "linear/parts/left/penalty"}));
+  EXPECT_EQ(differences(Whole::schema(), a, b)[0].sentence(), "method/penalty = 11 (was 10)");
+  EXPECT_EQ(differences(Whole::schema(), b, a)[1].sentence().substr(0, 33), "linear/parts/left/name = not give");
 }
 
 }  // namespace thixis::core

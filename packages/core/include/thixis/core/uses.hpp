@@ -52,9 +52,6 @@ std::string skeleton(const Description& root, const void* params, const Unused& 
 /// As describe without `uses`; says the conditions, and decks to start from hold as comments what takes no part in them.
 std::string describe(const Description& root, const std::string& path, Format format, const std::vector<Use>& uses);
 
-/// The paths of the parameters whose values in `a` and `b` differ, in the order of the description.
-std::vector<std::string> differences(const Description& root, const void* a, const void* b);
-
 // The same for a schema.
 template <class P>
 void check_used(const Deck& deck, const Uses<P>& uses, const P& params, bool set_alone = false) {
@@ -71,10 +68,6 @@ std::string skeleton(const Schema<P>& schema, const P& params, const Uses<P>& us
 template <class P>
 std::string describe(const Schema<P>& schema, const std::string& path, Format format, const Uses<P>& uses) {
   return describe(schema.description(), path, format, uses.all());
-}
-template <class P>
-std::vector<std::string> differences(const Schema<P>& schema, const P& a, const P& b) {
-  return differences(schema.description(), &a, &b);
 }
 
 }  // namespace thixis::core
