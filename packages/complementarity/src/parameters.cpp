@@ -71,7 +71,7 @@ const core::Schema<StoppingParams>& StoppingParams::schema() {
               "Estimate the error after every Newton step and at every look into the linear solver; if not given, only where rule, target "
               "or adaptivity need it.")
           .parameter("target", &Params::target, core::above(0),
-                     "The mesh is refined until the energy error is guaranteed to be at most this.")
+                     "The mesh is refined until the bound on the energy error is at most this; the verdict says what the bound promises.")
           .choice(
               "measure", &Params::measure, {{"residual", Measure::residual}, {"literature", Measure::literature}},
               "Two-phase flow: what the estimate measures, dual norms of the residuals without units, or the sum of the literature in SI "
@@ -80,8 +80,8 @@ const core::Schema<StoppingParams>& StoppingParams::schema() {
                      "Two-phase flow: the time in units of which the estimate counts, in the unit of time of the deck; if not given, 2500 "
                      "years.")
           .parameter("friedrichs constant", &Params::friedrichs, core::above(0),
-                     "C in |v| <= C |grad v| for the bound of the literature, a length; if not given, that of the box around the domain, "
-                     "which serves where the whole boundary is held.");
+                     "C in |v| <= C |grad v| for the bounds in time and of the literature, a length; if not given, that of the box around "
+                     "the domain, which serves where the whole boundary is held.");
   return s;
 }
 

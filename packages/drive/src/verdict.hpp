@@ -11,6 +11,9 @@ struct Verdict {
   std::string sentence;
 };
 
+/// "energy error at most 1.2345e-02 (guaranteed)": an estimate by its name, with what it promises.
+std::string bound_clause(const std::string& name, const complementarity::Estimate& eta);
+
 /// Did the run do what was asked, in one sentence.
 Verdict judge(const RunParams& params, const Outcome& outcome);
 

@@ -7,6 +7,7 @@
 #include "sources.hpp"
 #include "stress.hpp"
 #include "tables.hpp"
+#include "tension_bounds.hpp"
 #include "thixis/algebra/tpetra.hpp"
 #include "thixis/equilibration/multilevel_flux.hpp"
 #include "thixis/equilibration/patch_flux.hpp"
@@ -124,9 +125,9 @@ class Evaluation {
       : space_(space), problem_(problem), iterate_(iterate), gap_(gap), q_(space.flux_degree()) {
     double inverse = 0;
     for (int alpha = 0; alpha < problem.count; ++alpha) {
-      least_[alpha] = least_tension(space, *problem.tension[alpha]);
+      tension_[alpha] = tension_bounds(space, *problem.tension[alpha]);
       double least = 1e300;
-      for (const double mu : least_[alpha]) least = std::min(least, mu);
+      for (const double mu : tension_[alpha].least) least = std::min(least, mu);
       smallest_[alpha] = space.mesh().comm.min(least);
       inverse += 1 / smallest_[alpha];
     }
@@ -189,8 +190,9 @@ class Evaluation {
         alg_K("thixis::equilibration::alg", owned), lin_K("thixis::equilibration::lin", owned);
     std::vector<double> sum(5, 0.0);
     for (int alpha = 0; alpha < problem_.count; ++alpha) {
-      const Sources data = sources(space_, q_, *problem_.force[alpha], problem_.boundary[alpha], problem_.time, nullptr, least_[alpha]);
-      const auto stress = make_stress(space_, q_, *problem_.tension[alpha], least_[alpha]);
+      const Sources data =
+          sources(space_, q_, *problem_.force[alpha], problem_.boundary[alpha], problem_.time, nullptr, tension_[alpha].least);
+      const auto stress = make_stress(space_, q_, *problem_.tension[alpha], tension_[alpha]);
       space_.share(*iterate_.residual[alpha], moments);
       Kokkos::parallel_for("thixis::equilibration::represent", Kokkos::RangePolicy<>(0, cells), Represent{moments, from, r});
       lift(r, alg);
@@ -242,7 +244,7 @@ class Evaluation {
   const Iterate& iterate_;
   const Coefficients& gap_;
   int q_;
-  std::vector<double> least_[2];
+  TensionBounds tension_[2];
   double smallest_[2] = {1, 1}, constant_ = 0;
   struct {
     double all, disc, alg;
