@@ -172,7 +172,11 @@ def refusals():
         refused("There is no checkpoint 'none.h5'", 5, "none.h5", ranks=ranks)
         refused("is no checkpoint of Thixis", 5, "cut/fields.h5", ranks=ranks)
         refused("is no checkpoint of Thixis", 5, "cut/deck.xml", ranks=ranks)
-        refused("belongs to another mesh", 2, checkpoint, "--set", "mesh/cells per side=8", ranks=ranks)
+        refused("mesh/cells per side: the checkpoint 'cut/checkpoint.h5' belongs to another model, mesh or method", 2, checkpoint, "--set",
+                "mesh/cells per side=8", ranks=ranks)
+    refused("method/nodes: the checkpoint", 2, checkpoint, "--set", "method/nodes=bernstein")
+    refused("newton/initial/u1: a restart begins with the state of the checkpoint", 2, checkpoint, "--set", "newton/initial/u1=0.1")
+    refused("method/penalty: this is used only with method/name = dg", 2, checkpoint, "--set", "method/penalty=20")
     refused("belongs to level 3", 2, checkpoint, "--set", "mesh/refinements=2")
     refused("write newton/start = nested", 2, checkpoint, "--set", "mesh/refinements=4")
     refused("Did you mean 'max iterations'?", 2, checkpoint, "--set", "newton/max iteration=20")

@@ -80,8 +80,8 @@ const core::Schema<StoppingParams>& StoppingParams::schema() {
                      "Two-phase flow: the time in units of which the estimate counts, in the unit of time of the deck; if not given, 2500 "
                      "years.")
           .parameter("friedrichs constant", &Params::friedrichs, core::above(0),
-                     "C in |v| <= C |grad v| for the bound of the literature, a length; if not given, that of the box around the domain, "
-                     "which serves where the whole boundary is held.");
+                     "C in |v| <= C |grad v| for the bounds in time and of the literature, a length; if not given, that of the box around "
+                     "the domain, which serves where the whole boundary is held.");
   return s;
 }
 

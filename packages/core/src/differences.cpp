@@ -4,46 +4,52 @@
 
 #include <map>
 
+#include "block_reader.hpp"
 #include "thixis/core/text.hpp"
-#include "xml_reader.hpp"
+#include "values.hpp"
 
 namespace thixis::core {
 namespace {
 
-using Values = std::map<std::string, std::string>;
+/// The values as the deck has them, by path, in the order of the description.
+using Values = std::vector<std::pair<std::string, std::string>>;
 
-void collect(const Deck::Entry& list, const std::string& path, Values& values) {
-  for (const auto& entry : list.inside) {
-    const std::string place = path.empty() ? entry.name : path + "/" + entry.name;
-    if (entry.list) collect(entry, place, values);
-    else values[place] = entry.value;
-  }
+void collect_value(const Description::Parameter& parameter, const void* object, const std::string& path, Values& values) {
+  if (const auto value = write_value(parameter, object)) values.emplace_back(path, value->text);
 }
 
-Values values_of(const Description& root, const void* params) {
-  std::vector<Deck::Mistake> none;
-  Values values;
-  collect(read_xml(to_xml(root, params), root.name(), none), "", values);
-  return values;
+void collect_values(const Description& description, const void* object, const std::string& path, Values& values) {
+  for (const auto& parameter : description.parameters()) collect_value(parameter, object, joined_path(path, parameter.name), values);
+  for (const auto& block : description.blocks())
+    for (const auto& [name, member] : block.members(object)) {
+      const std::string inside = joined_path(path, block.single ? block.name : joined_path(block.name, name));
+      if (block.inside) collect_values(*block.inside, member, inside, values);
+      else collect_value(*block.value, member, inside, values);
+    }
 }
 
-std::string shown(const Values& values, const std::string& path) {
+std::string shown(const std::optional<std::string>& value) {
   constexpr std::size_t most = 60;
-  const auto found = values.find(path);
-  return found == values.end() ? "not given" : shortened(found->second, most);
+  return value ? shortened(*value, most) : "not given";
 }
 
 }  // namespace
 
-std::vector<std::string> differences(const Description& root, const void* before, const void* now) {
-  const Values old = values_of(root, before), fresh = values_of(root, now);
-  Values all = old;
-  all.insert(fresh.begin(), fresh.end());
-  std::vector<std::string> found;
-  for (const auto& entry : all)
-    if (const std::string was = shown(old, entry.first), is = shown(fresh, entry.first);
-        old.count(entry.first) != fresh.count(entry.first) || (old.count(entry.first) > 0 && old.at(entry.first) != fresh.at(entry.first)))
-      found.push_back(fmt::format("{} = {} (was {})", entry.first, is, was));
+std::string Difference::sentence() const { return fmt::format("{} = {} (was {})", path, shown(now), shown(before)); }
+
+std::vector<Difference> differences(const Description& root, const void* before, const void* now) {
+  Values old, fresh;
+  collect_values(root, before, "", old);
+  collect_values(root, now, "", fresh);
+  const std::map<std::string, std::string> were(old.begin(), old.end()), are(fresh.begin(), fresh.end());
+  std::vector<Difference> found;
+  for (const auto& [path, value] : fresh) {
+    const auto was = were.find(path);
+    if (was == were.end()) found.push_back({path, std::nullopt, value});
+    else if (was->second != value) found.push_back({path, was->second, value});
+  }
+  for (const auto& [path, value] : old)
+    if (are.count(path) == 0) found.push_back({path, value, std::nullopt});
   return found;
 }
 

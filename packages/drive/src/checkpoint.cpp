@@ -31,7 +31,7 @@ output::Checkpoint checkpoint_frame(const RunParams& params, const core::Deck& d
   RunParams as_run = params;
   as_run.output.directory = absolute(params.output.directory);
   output::Checkpoint frame;
-  frame.deck = core::to_xml(RunParams::schema(), as_run);
+  frame.deck = as_run.as_deck();
   frame.folder = absolute(deck.folder());
   return frame;
 }
@@ -83,8 +83,10 @@ void say_differences(const output::StoredCheckpoint& stored, const RunParams& pa
   RunParams before = core::Deck::from_text(stored.deck(), stored.path()).parse(RunParams::schema());
   before.output.directory = params.output.directory;
   std::vector<std::string> of_problem, others;
-  for (const std::string& difference : core::differences(RunParams::schema(), before, params))
-    (difference.rfind("scene/", 0) == 0 || difference.rfind("mesh/file", 0) == 0 ? of_problem : others).push_back(difference);
+  for (const auto& difference : core::differences(RunParams::schema(), before, params)) {
+    const bool another = difference.path.rfind("scene/", 0) == 0 || difference.path == "mesh/file";
+    (another ? of_problem : others).push_back(difference.sentence());
+  }
   if (!of_problem.empty())
     core::log::warn("this is another problem than that of the checkpoint, whose state is where it begins: {}", core::join(of_problem));
   if (!others.empty()) core::log::info("other parameters than those of the checkpoint: {}", core::join(others));

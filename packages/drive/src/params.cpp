@@ -14,9 +14,11 @@ std::string trimmed(const std::string& text) {
 }
 
 /// A pair of bounds is two numbers in order.
+constexpr const char* pair_rule = "must hold the smallest and the largest value allowed, e.g. {1.0, 1.2}.";
+bool in_order(const std::vector<double>& pair) { return pair.size() == 2 && pair[0] <= pair[1]; }
+
 void check_pair(const std::optional<std::vector<double>>& pair, const std::string& name, core::Problems& problems) {
-  if (pair && (pair->size() != 2 || (*pair)[0] > (*pair)[1]))
-    problems.add(name, "must hold the smallest and the largest value allowed, e.g. {1.0, 1.2}.");
+  if (pair && !in_order(*pair)) problems.add(name, pair_rule);
 }
 
 core::Range above_0_up_to_1() {
@@ -85,8 +87,11 @@ const core::Schema<OutputParams>& OutputParams::schema() {
                      "0: only where a run ends without convergence or is told to end.")
           .parameter("fields every", &OutputParams::fields_every, core::at_least(1),
                      "Scenes in time: fields are written after so many steps, and at the beginning and the end.")
-          .parameter("probes", &OutputParams::probes,
-                     "Two-phase flow: the points of series.csv, x and y of each one (intervals: x alone); not given: chosen by the scene.")
+          .parameter(
+              "probes", &OutputParams::probes,
+              "Points, x and y of each one (intervals: x alone), whose values are written: in time to series.csv after every step, the "
+              "fields of the second point with _2 behind their names; of stationary scenes to probes.csv at the end. Not given: none; "
+              "two-phase flow: the cell at the left end.")
           .check([](const OutputParams& params, core::Problems& problems) {
             if (trimmed(params.fields).empty()) problems.add("fields", "must be all, none, or names separated by commas.");
           });
@@ -109,7 +114,7 @@ const core::Schema<TimeParams>& TimeParams::schema() {
           .parameter("smallest", &TimeParams::smallest, core::above(0),
                      "A step that fails is cut; one below this length ends the run. Not given: 'step' / 2^20, or 1e-13 of the end if that "
                      "is more.")
-          .parameter("largest", &TimeParams::largest, core::above(0), "Longest step of adaptive = true; not given: the whole time.")
+          .parameter("largest", &TimeParams::largest, core::above(0), "Longest step; not given: the whole time.")
           .parameter("growth", &TimeParams::growth, core::above(1), "The next step is at most so many times longer.")
           .check([](const TimeParams& params, core::Problems& problems) {
             check_steps(params, problems);
@@ -134,6 +139,23 @@ const core::Schema<AdaptParams>& AdaptParams::schema() {
           .parameter("max levels", &AdaptParams::max_levels, core::at_least(0), "Meshes that are added to those of the deck at most.")
           .parameter("max unknowns", &AdaptParams::max_unknowns, core::at_least(1),
                      "No mesh with more unknowns is solved, the multiplier counted.");
+  return schema;
+}
+
+const core::Schema<ExpectAtParams>& ExpectAtParams::schema() {
+  static const auto schema =
+      core::Schema<ExpectAtParams>("at", "Values of fields at points, at the end: a sublist for each one, with a name of your own.")
+          .parameter("place", &ExpectAtParams::place, core::entries(1, 2), "The point: {x,y}, on an interval {x}.")
+          .required()
+          .parameter("field", &ExpectAtParams::field,
+                     "u1, u2, lambda or gap; model obstacle: u, lambda, gap; two-phase: s_g, p_l, p_g, chi. In a cell of the lowest number "
+                     "where the point lies on several.")
+          .required()
+          .parameter("between", &ExpectAtParams::between, core::entries(2), "Smallest and largest value.")
+          .required()
+          .check([](const ExpectAtParams& params, core::Problems& problems) {
+            if (problems.given("between") && !in_order(params.between)) problems.add("between", pair_rule);
+          });
   return schema;
 }
 
@@ -165,10 +187,22 @@ const core::Schema<ExpectParams>& ExpectParams::schema() {
           .parameter("hydrogen balance at most", &ExpectParams::hydrogen_balance_at_most, core::above(0),
                      "Largest defect of a step in the mass of hydrogen, relative to what was injected.")
           .parameter("front between", &ExpectParams::front_between, "Smallest and largest position of the gas front at the end.")
+          .parameter("energy norm between", &ExpectParams::energy_norm_between, "Smallest and largest energy norm of the solution.")
+          .parameter(
+              "contact area between", &ExpectParams::contact_area_between,
+              "Smallest and largest area of the contact zone, at the end: the integrals of the basis functions of the points in contact "
+              "that are not held.")
+          .parameter(
+              "force between", &ExpectParams::force_between,
+              "Smallest and largest integral of the contact force, at the end; what held points carry counts as force of the boundary.")
+          .blocks("at", &ExpectParams::at, ExpectAtParams::schema())
           .check([](const ExpectParams& params, core::Problems& problems) {
             check_pair(params.energy_error_between, "energy error between", problems);
             check_pair(params.effectivity_between, "effectivity between", problems);
             check_pair(params.front_between, "front between", problems);
+            check_pair(params.energy_norm_between, "energy norm between", problems);
+            check_pair(params.contact_area_between, "contact area between", problems);
+            check_pair(params.force_between, "force between", problems);
           });
   return schema;
 }

@@ -19,8 +19,9 @@ namespace thixis::drive {
 
 using Versions = std::vector<std::pair<std::string, std::string>>;
 
-/// Makes the output directory and begins its log. `goes_on`: behind the files of the interrupted run.
-void open(output::RunDirectory& directory, const RunParams& params, bool goes_on, const core::Comm& comm);
+/// Makes the output directory, writes the deck as run, which can be run again from there, and begins the log. `goes_on`: behind the files
+/// of the interrupted run.
+void open(output::RunDirectory& directory, const RunParams& params, const core::Deck& deck, bool goes_on, const core::Comm& comm);
 /// Says what is run.
 void introduce(const core::Deck& deck, const models::Model& model, const core::Comm& comm, const Versions& versions);
 

@@ -11,6 +11,8 @@
 #include "thixis/algebra/tpetra.hpp"
 #include "thixis/core/log.hpp"
 #include "thixis/core/timer.hpp"
+#include "thixis/drive/run.hpp"
+#include "thixis/output/probes.hpp"
 
 namespace thixis::drive {
 namespace {
@@ -72,6 +74,14 @@ void write_fields(const output::RunDirectory& directory, const OutputParams& par
   writer.close();
 }
 
+void write_probes(const output::RunDirectory& directory, const models::Model& model, const std::vector<models::Probe>& probes,
+                  const Outcome& outcome, const core::Comm& comm) {
+  const core::Region region("output");
+  std::vector<std::array<double, 2>> points;
+  for (const auto& probe : probes) points.push_back(probe.at);
+  output::write_probes(directory.probes(), points, model.point_fields(), outcome.discretization->values_at(probes, *outcome.X), comm);
+}
+
 }  // namespace
 
 core::ExitCode run_stationary(const RunParams& params, const models::StationaryModel& model, const core::Deck& deck, const core::Comm& comm,
@@ -85,8 +95,11 @@ core::ExitCode run_stationary(const RunParams& params, const models::StationaryM
   require_memory(params, static_cast<double>(hierarchy.finest().global_cells), comm);
   // what is wrong in the scene on this mesh shows here, before anything is written
   const bool nested = params.newton.start == complementarity::Start::nested;
-  for (const auto& mesh : hierarchy.levels)
-    if (nested || &mesh == &hierarchy.finest()) model.check(mesh, params.output.model_names());
+  const models::Wanted asked = wanted(params);
+  for (const auto& mesh : hierarchy.levels) {
+    if (&mesh == &hierarchy.finest()) model.check(mesh, asked);
+    else if (nested) model.check(mesh, {asked.fields, {}, {}});
+  }
 
   output::RunDirectory directory(params.output.directory);
   CheckpointFile checkpoint(directory.checkpoint(), params, deck, hierarchy);
@@ -95,7 +108,7 @@ core::ExitCode run_stationary(const RunParams& params, const models::StationaryM
     check_restart(*stored, params, hierarchy);
   }
   const bool goes_on = stored && same_directory(*stored, directory.path());
-  open(directory, params, goes_on, comm);
+  open(directory, params, deck, goes_on, comm);
   introduce(deck, model, comm, versions);
   if (stored) {
     say_where(*stored);
@@ -112,6 +125,7 @@ core::ExitCode run_stationary(const RunParams& params, const models::StationaryM
   const bool kept = to_be_kept && follow.save(outcome.at, *outcome.discretization, *outcome.X);
 
   if (!outcome.not_wanted && !params.output.no_fields()) write_fields(directory, params.output, outcome, comm);
+  if (!outcome.not_wanted && !asked.probes.empty()) write_probes(directory, model, asked.probes, outcome, comm);
   const auto summary = summarize(params, model, outcome, verdict, comm, clock.seconds(), versions);
   summary.write(directory.summary(), comm);
   say_doubts(outcome.estimate, outcome.discretization->doubts());

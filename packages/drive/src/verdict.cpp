@@ -29,8 +29,8 @@ std::string solved(const RunParams& params, const Outcome& outcome) {
 }
 
 std::string target_missed(const RunParams& params, const Outcome& outcome) {
-  return fmt::format("target missed: {}, not {:g}; refinement ended by {}", bound(outcome), *params.stopping.target,
-                     outcome.refinement_ended);
+  return fmt::format("target missed: {}, not {:g}; refinement ended by {}; {}", bound(outcome), *params.stopping.target,
+                     outcome.refinement_ended, outcome.to_try);
 }
 
 }  // namespace

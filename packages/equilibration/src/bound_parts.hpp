@@ -59,8 +59,8 @@ struct BoundParts {
 
   /// R as a polynomial in every patch cell. `has`: whether r is not 0, in and out.
   void represent(const algebra::Vector& R, const CellTable& r, bool& has) const;
-  /// The residual, its representative and its lift.
-  void lift_residual(const algebra::Vector& R, const CellTable& r, const CellTable& sigma, bool& has) const;
+  /// The residual, its representative and its lift; returns what the lift leaves (MultilevelFlux).
+  double lift_residual(const algebra::Vector& R, const CellTable& r, const CellTable& sigma, bool& has) const;
   /// `rate`: a polynomial source to be taken from the force, densities on the patch cells; of length 0: none.
   void discretization_flux(const Iterate& iterate, int alpha, const ConstCellTable& rate) const;
   /// The fluxes of a membrane.

@@ -155,6 +155,8 @@ struct FeasiblePair::Impl {
       : space(space_), problem(problem_), nodes(nodes_of(space, held_tags(problem.boundary[0]))), monomials(density_monomials()) {
     set_tensions();
     set_kernel();
+    if (problem.count == 1)
+      jumps = space.mesh().comm.together([&] { return method::jumps_in_cells(space.quadrature(), *problem.obstacle, 0); });
     set_boundary(nullptr);
     if (space.conforming()) return;
     averages.emplace(space, nodes);
@@ -165,6 +167,7 @@ struct FeasiblePair::Impl {
       : space(other.space),
         problem(other.problem),
         nodes(other.nodes),
+        jumps(other.jumps),
         monomials(other.monomials),
         modal(other.modal),
         tension(other.tension),
@@ -229,7 +232,7 @@ struct FeasiblePair::Impl {
     space.mesh().comm.together([&] {
       for (int alpha = 0; alpha < problem.count; ++alpha)
         held[alpha] = boundary_coefficients(space, nodes, problem.boundary[alpha].dirichlet, problem.time);
-      if (problem.count == 1) held[1] = interpolant(space, nodes, *problem.obstacle);
+      if (problem.count == 1) held[1] = obstacle_coefficients(space, nodes, *problem.obstacle, jumps);
     });
     // Bernstein coefficients of ordered data need not be ordered
     for (LocalIndex e = 0; e < nodes.entries.size(); ++e) {
@@ -240,9 +243,18 @@ struct FeasiblePair::Impl {
     }
     lift = std::make_unique<BoundaryLift>(space, nodes, problem.tension, problem.boundary, held, problem.count, problem.time, other);
     kernel.lift = lift->of_cells();
-    kernel.deviation =
-        problem.count == 2 ? deviation_of_membranes(space, *lift) : deviation_of_obstacle(space, *lift, nodes, problem.obstacle, held[1]);
+    if (problem.count == 2) kernel.deviation = deviation_of_membranes(space, *lift);
+    else set_obstacle(held[1], held[0]);
     for (int alpha = 0; alpha < 2; ++alpha) data[alpha] = to_view("thixis::equilibration::held", held[alpha]);
+  }
+
+  /// `psi`: psi_I, `g`: the boundary data.
+  void set_obstacle(const std::vector<double>& psi, const std::vector<double>& g) {
+    const auto above = majorant(space, nodes, jumps, psi, g);
+    kernel.deviation = deviation_of_obstacle(space, *lift, nodes, problem.obstacle, above.empty() ? psi : above, jumps);
+    if (above.empty()) return;
+    kernel.majorant = to_view("thixis::equilibration::majorant", above);
+    kernel.excess = excess_of_majorant(space, nodes, *problem.obstacle, above, jumps);
   }
 
   /// Gaps below are round-off. Collective.
@@ -260,6 +272,7 @@ struct FeasiblePair::Impl {
   const method::PolynomialSpace& space;
   Problem problem;
   ContinuousNodes nodes;
+  method::Jumps jumps;  ///< of the obstacle
   Matrix monomials;
   Matrix modal;  ///< (m, l): modal coefficients of basis functions
   Tension tension;
@@ -456,6 +469,16 @@ FeasiblePair::Bulge FeasiblePair::bulge(const FeasiblePair& before, const Feasib
 }
 
 bool FeasiblePair::obstacle_is_interpolated() const { return !impl_->kernel.deviation.of_obstacle; }
+
+View<const bool*> FeasiblePair::jumps() const {
+  const method::Jumps& jumps = impl_->jumps;
+  const View<bool*> of_cells("thixis::equilibration::jumps", jumps.of_cells.size());
+  const auto host = Kokkos::create_mirror_view(of_cells);
+  for (std::size_t k = 0; k < jumps.of_cells.size(); ++k) host(k) = jumps.of_cells[k].jumps;
+  Kokkos::deep_copy(of_cells, host);
+  return of_cells;
+}
+
 double FeasiblePair::boundary_energy() const { return impl_->lift->energy(); }
 
 std::size_t FeasiblePair::bytes() const {

@@ -4,6 +4,7 @@
 
 #include "bound_parts.hpp"
 #include "thixis/algebra/tpetra.hpp"
+#include "thixis/core/error.hpp"
 
 namespace thixis::equilibration {
 
@@ -15,8 +16,12 @@ struct GuaranteedBound::Impl : BoundParts {
   /// The fluxes of a membrane and their norms.
   void equilibrate(const Iterate& iterate, int alpha, const Vector& cut_off) {
     Membrane& m = membrane[alpha];
-    lift_residual(*iterate.residual[alpha], m.r_alg, m.sigma_alg, m.has_alg);
-    lift_residual(cut_off, m.r_lin, m.sigma_lin, m.has_lin);
+    const double left =
+        lift_residual(*iterate.residual[alpha], m.r_alg, m.sigma_alg, m.has_alg) + lift_residual(cut_off, m.r_lin, m.sigma_lin, m.has_lin);
+    if (left > 0)
+      throw core::InputError(
+          "mesh: the error is not bounded where nothing holds a piece of the mesh; hold a part of its boundary, or leave the estimate "
+          "out.");
     (*m.stress)(iterate.u[alpha], m.w);
     discretization_flux(iterate, alpha, {});
     measure(iterate.u[alpha], alpha);

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "thixis/core/error.hpp"
+#include "thixis/method/values_at.hpp"
 
 namespace thixis::models {
 namespace {
@@ -34,8 +35,16 @@ void keep_in_order(const Coefficients& upper, const Coefficients& lower, const s
       });
 }
 
-bool steady(const std::vector<scene::FieldPtr>& fields) {
-  return std::all_of(fields.begin(), fields.end(), [](const scene::FieldPtr& field) { return !field || field->steady(); });
+std::string displacement(int count, int alpha) { return count == 1 ? "u" : alpha == 0 ? "u1" : "u2"; }
+
+std::vector<double> values_of(const scene::Field& field, const std::vector<Probe>& probes) {
+  std::vector<double> x, y, values(probes.size());
+  for (const auto& probe : probes) {
+    x.push_back(probe.at[0]);
+    y.push_back(probe.at[1]);
+  }
+  field.evaluate({probes.size(), x.data(), y.data()}, 0, values.data());
+  return values;
 }
 
 }  // namespace
@@ -109,7 +118,7 @@ std::vector<output::CheckpointBlock> MembraneLevel::save(const Vector& X, const 
     const auto count = static_cast<std::ptrdiff_t>(values.extent(0));
     blocks.push_back({name + suffix, {ids.begin(), ids.begin() + count}, {values.data(), values.data() + count}});
   };
-  for (int alpha = 0; alpha < scene_.count; ++alpha) add(displacement(alpha), *x.u.getVector(alpha));
+  for (int alpha = 0; alpha < scene_.count; ++alpha) add(displacement(scene_.count, alpha), *x.u.getVector(alpha));
   add("lambda", x.lambda);
   return blocks;
 }
@@ -123,7 +132,7 @@ Teuchos::RCP<Vector> MembraneLevel::restore(const output::StoredCheckpoint& stor
     const auto out = algebra::host_overwrite(v);
     std::copy(values.begin(), values.end(), out.data());
   };
-  for (int alpha = 0; alpha < scene_.count; ++alpha) fetch(displacement(alpha), *x.u.getVectorNonConst(alpha));
+  for (int alpha = 0; alpha < scene_.count; ++alpha) fetch(displacement(scene_.count, alpha), *x.u.getVectorNonConst(alpha));
   fetch("lambda", x.lambda);
   return joined(x);
 }
@@ -136,7 +145,8 @@ std::vector<output::FieldData> MembraneLevel::shown(const Vector& X, const compl
     if (names.empty() || std::find(names.begin(), names.end(), name) != names.end())
       shown.push_back({name, output::Centre::vertex, values()});
   };
-  for (int alpha = 0; alpha < scene_.count; ++alpha) add(displacement(alpha), [&] { return space_->shown(membrane(x, alpha)); });
+  for (int alpha = 0; alpha < scene_.count; ++alpha)
+    add(displacement(scene_.count, alpha), [&] { return space_->shown(membrane(x, alpha)); });
   add("lambda", [&] { return space_->shown(space_->multiplier(x.lambda)); });
   add("gap", [&] {
     auto gap = space_->shown(membrane(x, 0));
@@ -153,6 +163,71 @@ std::vector<output::FieldData> MembraneLevel::shown(const Vector& X, const compl
     return space_->coefficients_shown(space_->complete(flag, nothing_));
   });
   return shown;
+}
+
+std::vector<std::string> MembraneLevel::point_fields(const scene::MembraneScene& scene) {
+  std::vector<std::string> names;
+  for (int alpha = 0; alpha < scene.count; ++alpha) names.push_back(displacement(scene.count, alpha));
+  names.insert(names.end(), {"lambda", "gap"});
+  return names;
+}
+
+std::vector<double> MembraneLevel::values_at(const std::vector<Probe>& probes, const Vector& X) const {
+  const Fields x = fields(X);
+  const auto places = place(probes, space_->mesh());
+  std::vector<std::vector<double>> columns;
+  for (int alpha = 0; alpha < scene_.count; ++alpha) columns.push_back(method::values_at(polynomials(), places, membrane(x, alpha)));
+  columns.push_back(method::values_at(polynomials(), places, space_->multiplier(x.lambda)));
+  columns.push_back(columns[0]);
+  const auto below = scene_.count == 2 ? columns[1] : values_of(*scene_.obstacle, probes);
+  for (std::size_t i = 0; i < probes.size(); ++i) columns.back()[i] -= below[i];
+  std::vector<double> rows;
+  for (std::size_t i = 0; i < probes.size(); ++i)
+    for (const auto& column : columns) rows.push_back(column[i]);
+  return rows;
+}
+
+Vector MembraneLevel::gaps(const Fields& x) const {
+  Vector K(problem_->points());
+  gap(problem_->membranes(), x.u, K);
+  return K;
+}
+
+double MembraneLevel::largest_gap(const Vector& X) const {
+  const Vector gaps_l = gaps(fields(X));
+  const auto K = algebra::host_view(gaps_l);
+  double largest = 0;
+  for (std::size_t l = 0; l < K.extent(0); ++l) largest = std::max(largest, K(l));
+  return space_->mesh().comm.max(largest);
+}
+
+Contact MembraneLevel::contact(const Vector& X) const {
+  const Fields x = fields(X);
+  const Vector gaps_l = gaps(x);
+  Vector scale(problem_->points());
+  problem_->scaling(scale);
+  Contact sum;
+  {
+    const auto read = [](const Vector& v) { return algebra::host_view(v); };
+    const auto weight = read(areas()), K = read(gaps_l), s = read(scale), lambda = read(x.lambda), D = read(space_->pairing());
+    for (std::size_t l = 0; l < K.extent(0); ++l) {
+      if (s(l) * lambda(l) > K(l)) sum.area += weight(l);
+      sum.force += D(l) * lambda(l);
+    }
+  }
+  const core::Comm& comm = space_->mesh().comm;
+  return {comm.sum(sum.area), comm.sum(sum.force)};
+}
+
+/// Set up at the first call. Collective.
+const Vector& MembraneLevel::areas() const {
+  if (areas_.is_null()) {
+    const std::vector<scene::FieldPtr> zero(space_->mesh().tags.size(), scene::constant(0));
+    const auto one = scene::constant(1);
+    areas_ = Teuchos::rcp(new Vector(space_->map()));
+    space_->load(*one, *one, {zero, zero}, 0, *areas_);
+  }
+  return *areas_;
 }
 
 equilibration::ContactProblem MembraneLevel::contact_problem() const {

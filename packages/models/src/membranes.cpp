@@ -7,6 +7,7 @@
 #include "membrane_checks.hpp"
 #include "membrane_kkt.hpp"
 #include "membrane_level.hpp"
+#include "membrane_pieces.hpp"
 #include "thixis/core/timer.hpp"
 #include "thixis/equilibration/guaranteed_bound.hpp"
 #include "thixis/equilibration/published_bound.hpp"
@@ -119,6 +120,8 @@ class MembraneDiscretization final : public Discretization {
     return models::kkt_data(solution);
   }
 
+  Contact contact(const Vector& X) const override { return on_mesh_->contact(X); }
+  std::vector<double> values_at(const std::vector<Probe>& probes, const Vector& X) const override { return on_mesh_->values_at(probes, X); }
   output::Grid grid() const override { return space().display(); }
 
   std::vector<output::FieldData> fields(const Vector& X, const complementarity::ActiveSet& active,
@@ -152,10 +155,16 @@ class Membranes final : public StationaryModel {
   }
   std::string name() const override { return scene_.count == 1 ? "obstacle" : "membranes"; }
   std::string case_name() const override { return scene_.name == "data" ? "" : scene_.name; }
-  void check(const mesh::Mesh& mesh, const std::vector<std::string>& field_names) const override {
-    check_field_names(scene_, field_names);
+  std::vector<std::string> point_fields() const override { return MembraneLevel::point_fields(scene_); }
+  void check(const mesh::Mesh& mesh, const Wanted& wanted) const override {
+    check_field_names(scene_, wanted.fields);
+    place(wanted.expected, mesh);
+    place(wanted.probes, mesh);
+    const Boundary boundary = boundary_of(scene_, mesh);
+    check_held(scene_, boundary);
     check_functions(scene_, initial_, method_, mesh);
-    if (check_mesh_) check_mesh_(mesh, {boundary_of(scene_, mesh).dirichlet, scene_.interface_level_set, method_});
+    check_pieces(scene_, boundary, mesh);
+    if (check_mesh_) check_mesh_(mesh, {boundary.dirichlet, scene_.interface_level_set, method_});
   }
   std::unique_ptr<Discretization> discretize(const mesh::Hierarchy& hierarchy, int level) const override {
     return std::make_unique<MembraneDiscretization>(scene_, make_space_, method_, linear_, initial_, hierarchy, level);

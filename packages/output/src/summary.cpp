@@ -38,6 +38,7 @@ Json json(const std::optional<SummaryEstimate>& estimate) {
   result["promise"] = estimate->promise;
   if (!estimate->doubts.empty()) result["doubts"] = estimate->doubts;
   append(result, object(estimate->terms));
+  if (estimate->time) append(result, object({{"time", *estimate->time}}));
   return result;
 }
 

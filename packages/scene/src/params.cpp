@@ -262,7 +262,7 @@ const core::Schema<DataParams>& DataParams::schema() {
           .parameter("mu", &DataParams::mu, "Model obstacle: tension of the membrane; positive, without it 1.")
           .parameter("f", &DataParams::f, "Model obstacle: force on the membrane; without it 0.")
           .parameter("g", &DataParams::g, "Model obstacle: height of the membrane on the boundary, at least psi; without it that of u.")
-          .parameter("psi", &DataParams::psi, "Model obstacle: height of the obstacle; must be given.")
+          .parameter("psi", &DataParams::psi, "Model obstacle: height of the obstacle; must be given. It should be continuous; on an edge where it jumps the upper height counts.")
           .parameter("u", &DataParams::u, "Model obstacle: exact solution, if known.")
           .parameter("u_x", &DataParams::u_x, "Model obstacle: derivative of u in x; without it differences of u.")
           .parameter("u_y", &DataParams::u_y, "Model obstacle: derivative of u in y; without it differences of u.")

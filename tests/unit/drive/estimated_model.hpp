@@ -23,7 +23,8 @@ class EstimatedModel final : public models::StationaryModel {
 
   std::string name() const override { return inner_->name(); }
   std::string case_name() const override { return inner_->case_name(); }
-  void check(const mesh::Mesh& mesh, const std::vector<std::string>& names) const override { inner_->check(mesh, names); }
+  std::vector<std::string> point_fields() const override { return inner_->point_fields(); }
+  void check(const mesh::Mesh& mesh, const models::Wanted& wanted) const override { inner_->check(mesh, wanted); }
   std::unique_ptr<models::Discretization> discretize(const mesh::Hierarchy& hierarchy, int level) const override;
 
  private:

@@ -19,7 +19,7 @@ COARSE = ["mesh/refinements=2", "mesh/cells per rank=50", "expect/energy error b
 SUMMARY_KEYS = set(
     "verdict exit_code model case method degree ranks threads cells unknowns nonzeros newton_iterations newton_finest linear_iterations "
     "energy_error energy_norm estimate estimate_published effectivity effectivity_published kkt active_points time memory_mb versions".split())
-HISTORY_HEADER = "level time_step time newton linear active changed residual eta_disc eta_lin eta_alg eta_total promise energy_error seconds".split()
+HISTORY_HEADER = "level time_step time newton linear active changed residual eta_disc eta_lin eta_alg eta_total eta_time promise energy_error seconds".split()
 
 
 class Run:

@@ -1,5 +1,6 @@
 #pragma once
 #include <functional>
+#include <optional>
 
 #include "thixis/algebra/fwd.hpp"
 
@@ -38,6 +39,8 @@ struct Estimate {
   /// linearization holds all that the nonlinear equations and the contact conditions miss at this iterate: small once is small. Otherwise
   /// it may be small at one iterate and larger at the next, and the rule `adaptive` looks twice.
   bool evident = false;
+  /// Where the problem is one in time: how much of eta_disc shorter steps would take away (StepErrors::time); no summand.
+  std::optional<double> time = std::nullopt;
   Promise promise = Promise::indicator;
 };
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -6,10 +7,17 @@
 
 namespace thixis::core {
 
-/// The parameters in which `now` is not as `before`, one text each: "newton/max iterations = 200 (was 3)".
-std::vector<std::string> differences(const Description& root, const void* before, const void* now);
+/// A parameter that has another value now than before; no value: it is not given.
+struct Difference {
+  std::string path;
+  std::optional<std::string> before, now;
+  std::string sentence() const;  ///< "newton/max iterations = 200 (was 3)"; long values are shortened
+};
+
+/// The parameters in which `now` is not as `before`, in the order of the description, those that are gone last.
+std::vector<Difference> differences(const Description& root, const void* before, const void* now);
 template <class P>
-std::vector<std::string> differences(const Schema<P>& schema, const P& before, const P& now) {
+std::vector<Difference> differences(const Schema<P>& schema, const P& before, const P& now) {
   return differences(schema.description(), &before, &now);
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -7,6 +8,7 @@
 #include "thixis/complementarity/estimate.hpp"
 #include "thixis/complementarity/parameters.hpp"
 #include "thixis/core/schema.hpp"
+#include "thixis/core/uses.hpp"
 #include "thixis/mesh/build.hpp"
 #include "thixis/method/space.hpp"
 #include "thixis/scene/membranes.hpp"
@@ -66,6 +68,14 @@ struct AdaptParams {
   static const core::Schema<AdaptParams>& schema();
 };
 
+/// A sublist of `expect/at`: a value that a field must have at a point.
+struct ExpectAtParams {
+  std::vector<double> place;    ///< x, y; on an interval x
+  std::string field;            ///< one of Model::point_fields
+  std::vector<double> between;  ///< smallest and largest value
+  static const core::Schema<ExpectAtParams>& schema();
+};
+
 /// Block `expect` of the deck: what the run checks of its own result (exit code 4 if it does not hold).
 struct ExpectParams {
   std::optional<double> energy_error_at_most;
@@ -79,6 +89,8 @@ struct ExpectParams {
   std::optional<int> steps_at_most, retries_at_most;
   std::optional<double> water_balance_at_most, hydrogen_balance_at_most;
   std::optional<std::vector<double>> front_between;
+  std::optional<std::vector<double>> energy_norm_between, contact_area_between, force_between;
+  std::map<std::string, ExpectAtParams> at;
   static const core::Schema<ExpectParams>& schema();
 };
 
@@ -95,6 +107,8 @@ struct RunParams {
   OutputParams output;
   ExpectParams expect;
   static const core::Schema<RunParams>& schema();
+  static const core::Uses<RunParams>& uses();  ///< when its entries take part
+  std::string as_deck() const;                 ///< XML, with what takes part, which runs again as it is
 
   /// Whether meshes are added to those of the deck: for a target, or because a block `adapt` asks for it.
   bool adaptive() const { return adapt || stopping.target; }

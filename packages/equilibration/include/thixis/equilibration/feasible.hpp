@@ -13,6 +13,7 @@ namespace thixis::equilibration {
 ///
 ///     u_h  ->  s_c: continuous (nodal averages, Dirichlet nodes from g; u_h itself for conforming spaces)
 ///          ->  s_N: gaps below zero at the nodes are closed, each membrane giving way by theta_alpha (mu_2, mu_1 over mu_1 + mu_2)
+///          ->  over an obstacle that jumps inside cells: raised to a continuous majorant of it there
 ///          ->  s:   + lift of g - g_h, then moved apart by what is left of the negative part of the gap, pointwise, in constant shares
 ///                   (of the mean tensions where they vary); over an obstacle up to psi itself.
 ///
@@ -97,6 +98,8 @@ class FeasiblePair {
 
   /// Whether psi is its interpolant at all quadrature points, up to round-off.
   bool obstacle_is_interpolated() const;
+  /// By patch cell, whether the obstacle jumps inside it; of length 0: nowhere on this rank.
+  View<const bool*> jumps() const;
   /// |||lift of g - g_h||| over all cells.
   double boundary_energy() const;
   std::size_t bytes() const;  ///< held for the mesh

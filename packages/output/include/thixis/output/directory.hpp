@@ -30,6 +30,7 @@ class RunDirectory {
   std::string history() const { return file("history.csv"); }
   std::string summary() const { return file("summary.json"); }
   std::string series() const { return file("series.csv"); }
+  std::string probes() const { return file("probes.csv"); }
   std::string checkpoint() const { return file("checkpoint.h5"); }
 
  private:
