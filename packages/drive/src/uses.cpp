@@ -115,8 +115,9 @@ void of_the_linear_solver(Uses& uses) {
           "linear/form", [](const P& p) { return !condensed(p) || p.linear.form == algebra::SystemForm::reduced; },
           "method/condensation = false")
       .when(
-          "linear/check every", [](const P& p) { return p.stopping.rule != StoppingRule::exact || p.stopping.estimate.value_or(false); },
-          "stopping/rule = inexact or adaptive, or stopping/estimate = true")
+          "linear/check every",
+          [](const P& p) { return p.output.history || p.stopping.rule != StoppingRule::exact || p.stopping.estimate.value_or(false); },
+          "output/history = true, stopping/rule = inexact or adaptive, or stopping/estimate = true")
       .when("stopping/inexact factor", krylov, for_krylov);
 }
 
