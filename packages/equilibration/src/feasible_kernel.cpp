@@ -37,10 +37,12 @@ KOKKOS_FUNCTION FeasibleParts::Move FeasibleParts::move_pointwise(int K, LocalIn
                                                                   const double* gap, bool counts) const {
   const int n = functions.size();
   Move move;
-  if (const double D = deviation.bound(place); smallest(n, gap) >= D) {  // open everywhere, by gap + D at most
+  const bool open = smallest(n, gap) >= deviation.bound(place);
+  if (open && !counts) return move;
+  if (open && !deviation.of_obstacle) {  // by D at most wider than the polynomial
     double widest[most];
-    for (int k = 0; k < n; ++k) widest[k] = gap[k] + D;
-    if (counts) move.contact = contact_of(K, widest);
+    for (int k = 0; k < n; ++k) widest[k] = gap[k] + deviation.bound(place);
+    move.contact = contact_of(K, widest);
     return move;
   }
   if (at_points.data() != nullptr) at_points() = true;
