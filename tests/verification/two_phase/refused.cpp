@@ -1,6 +1,7 @@
 /// Runs of two-phase flow that no state can follow end without success, in a sentence, and keep what they had.
 #include <gtest/gtest.h>
 
+#include "thixis/algebra/tpetra.hpp"
 #include "thixis/drive/evolve.hpp"
 #include "thixis/models/two_phase.hpp"
 #include "thixis/scene/field.hpp"
