@@ -32,8 +32,8 @@ scene::TwoPhaseScene catalogued(const std::string& name) {
   return scene::two_phase_scene(params);
 }
 
-std::unique_ptr<UnsteadyModel> made(const scene::TwoPhaseScene& scene, const std::vector<double>& probes = {}) {
-  return two_phase(scene, algebra::LinearParams{}, year, probes, TwoPhaseBoundParams{});
+std::unique_ptr<UnsteadyModel> made(const scene::TwoPhaseScene& scene) {
+  return two_phase(scene, algebra::LinearParams{}, year, TwoPhaseBoundParams{});
 }
 
 mesh::MeshParams interval(int cells, double length) {
@@ -296,7 +296,7 @@ TEST(TwoPhaseEvolution, closes_both_balances_whatever_the_linear_solver_leaves) 
   for (const auto preconditioner : {algebra::PreconditionerKind::none, algebra::PreconditionerKind::ilu}) {
     algebra::LinearParams linear;
     linear.preconditioner = preconditioner;
-    const auto model = two_phase(catalogued("gas injection 2d"), linear, year, {}, TwoPhaseBoundParams{});
+    const auto model = two_phase(catalogued("gas injection 2d"), linear, year, TwoPhaseBoundParams{});
     const auto evolution = model->evolve(tensor(12, 4, 200, 20), core::Comm(), "", {});
     const auto X = evolution->initial();
     complementarity::StoppingParams stopping;
@@ -335,16 +335,19 @@ TEST(TwoPhaseEvolution, owes_what_a_step_leaves) {
   }
   const double brought = 4e4 * 5.57e-6;
   EXPECT_GT(worst, 1e-9 * brought) << "or else there is nothing to see";
-  EXPECT_EQ(evolution->balances().back().name, "hydrogen");
-  EXPECT_NEAR(evolution->balances().back().total, owed / brought, 1e-12);
+  for (const Balance& balance : evolution->balances()) {
+    if (balance.name != "hydrogen") continue;
+    EXPECT_NEAR(balance.total, owed / brought, 1e-12);
+  }
 }
 
 TEST(TwoPhaseEvolution, refuses_parts_of_the_boundary_and_probes_that_are_not_there) {
   scene::TwoPhaseScene scene = catalogued("gas injection");
   scene.boundary["lid"];
   EXPECT_THROW(made(scene)->evolve(interval(4, 200), core::Comm(), "", {}), core::InputError);
-  EXPECT_THROW(made(catalogued("gas injection"), {250})->evolve(interval(4, 200), core::Comm(), "", {}), core::InputError);
-  EXPECT_THROW(made(catalogued("gas injection"))->evolve(interval(4, 200), core::Comm(), "", {"u1"}), core::InputError);
+  EXPECT_THROW(made(catalogued("gas injection"))->evolve(interval(4, 200), core::Comm(), "", {{}, {}, {{"output/probes", {250, 0}}}}),
+               core::InputError);
+  EXPECT_THROW(made(catalogued("gas injection"))->evolve(interval(4, 200), core::Comm(), "", {{"u1"}, {}, {}}), core::InputError);
 }
 
 }  // namespace
