@@ -62,7 +62,7 @@ TEST(Expression, knows_what_its_hints_say) {
   EXPECT_EQ(value("!(x < 1) + 2*!(y < 1)", 0, 2), 2);
   EXPECT_EQ(value("x != y", 0, 2), 1);
   EXPECT_EQ(value("x - 3*rint(x/3 - 0.5)", 7.5), 1.5);
-  EXPECT_EQ(value("2*sin (0*x) + 1e3*R"), 500);
+  EXPECT_EQ(value("2*sin(0*x) + 1e3*R"), 500);
 }
 
 TEST(Expression, does_not_depend_on_the_locale) {

@@ -335,8 +335,10 @@ TEST(TwoPhaseEvolution, owes_what_a_step_leaves) {
   }
   const double brought = 4e4 * 5.57e-6;
   EXPECT_GT(worst, 1e-9 * brought) << "or else there is nothing to see";
-  for (const Balance& balance : evolution->balances())
-    if (balance.name == "hydrogen") EXPECT_NEAR(balance.total, owed / brought, 1e-12);
+  for (const Balance& balance : evolution->balances()) {
+    if (balance.name != "hydrogen") continue;
+    EXPECT_NEAR(balance.total, owed / brought, 1e-12);
+  }
 }
 
 TEST(TwoPhaseEvolution, refuses_parts_of_the_boundary_and_probes_that_are_not_there) {
