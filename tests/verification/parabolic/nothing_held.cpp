@@ -83,7 +83,9 @@ TEST(NothingHeld, has_a_bound) {
         evolution->accept(*X);
         const double error = evolution->energy_error().value();
         EXPECT_GE(evolution->estimate_so_far()->total, error - 1e-12) << name_of(params) << ", step " << n;
-        if (disturbance == 0) EXPECT_LE(evolution->estimate_so_far()->total, 1e-6) << name_of(params) << ", step " << n;
+        if (disturbance == 0) {
+          EXPECT_LE(evolution->estimate_so_far()->total, 1e-6) << name_of(params) << ", step " << n;
+        }
       }
     }
 }
