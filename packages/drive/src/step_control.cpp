@@ -51,7 +51,7 @@ double StepControl::next_mark(double t) const {
 
 double StepControl::end_of_step(double t) const {
   const double mark = next_mark(t), left = mark - t;
-  if (length_ >= left * (1 - round_off)) return mark;
+  if (length_ >= left * (1 - round_off) - TimeParams::resolution * params_.end) return mark;
   if (2 * length_ > left) return t + left / 2;  // two equal steps rather than a long and a tiny one
   return t + length_;
 }

@@ -24,6 +24,7 @@ drive::RunParams sinking(MethodName method, int degree) {
   data.u2 = {"t < 0.1 ? 0 : (0.1 - t)/2"};
   for (const char* side : {"left", "right", "bottom", "top"}) params.scene.boundary[side].kind = scene::BoundaryKind::neumann;
   params.newton.scaling = complementarity::Scaling::physical;
+  params.stopping = {};  // where they meet every point is a tie: what is left is round-off, which can not be asked to fall
   return params;
 }
 
