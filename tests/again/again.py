@@ -1,8 +1,10 @@
 """Decks that the program has written run again as they are.
 
 again.py deck DECK PROGRAM [--set PATH=VALUE]...     results/deck.xml gives the summary that DECK has given
+again.py looks DECK PROGRAM [--set PATH=VALUE]...    every row of the history with a bound has the energy error, below it
 again.py scene SCENE PROGRAM                         `describe --format xml SCENE` is a deck without mistakes
 """
+import csv
 import json
 import shutil
 import subprocess
@@ -36,6 +38,13 @@ if kind == "deck":
     different = [key for key in first if first[key] != second[key]]
     assert not different, "\n".join(f"{key}: {first[key]}, then {second[key]}" for key in different)
     assert (scratch / "first/deck.xml").read_text().replace("first", "second") == (scratch / "second/deck.xml").read_text()
+elif kind == "looks":
+    thixis("run", what, "--output", "looks", "--set", "stopping/estimate=true", *overrides)
+    with open(scratch / "looks/history.csv") as file:
+        rows = [row for row in csv.DictReader(file) if row["eta_total"]]
+    assert len(rows) > 5, "the deck has looks"
+    for row in rows:
+        assert row["energy_error"] and float(row["energy_error"]) <= float(row["eta_total"]), row
 else:
     (scratch / "deck.xml").write_text(thixis("describe", "--format", "xml", what))
     thixis("check", "deck.xml")

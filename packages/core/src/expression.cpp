@@ -45,7 +45,7 @@ std::string mistake_of_form(const std::string& text) {
 struct Name {
   std::string text;
   std::string number;   ///< directly before it: "2" of "2x"
-  bool called = false;  ///< a parenthesis follows
+  bool called = false;  ///< a parenthesis follows at once
 };
 
 /// The names in the text; numbers such as 1e-3 are skipped as a whole.
@@ -68,8 +68,7 @@ std::vector<Name> names_in(const std::string& text) {
     }
     if (is_letter(text[i])) {
       while (end < text.size() && (is_letter(text[end]) || (is_digit(text[end]) && text[end] != '.'))) ++end;
-      const auto next = text.find_first_not_of(" \t\r\n", end);
-      names.push_back({text.substr(i, end - i), number, next != std::string::npos && text[next] == '('});
+      names.push_back({text.substr(i, end - i), number, end < text.size() && text[end] == '('});
     } else {
       ++end;
     }
@@ -94,7 +93,7 @@ std::string foreign_operator(const std::string& text) {
 std::string missing_sign(const std::string& text, const mu::Parser& parser) {
   for (const auto& [name, number, called] : names_in(text)) {
     if (!number.empty()) return fmt::format("has '{0}{1}'; write {0}*{1}", number, name);
-    if (!called && parser.GetFunDef().count(name) != 0) return fmt::format("has '{0}' without a '('; write {0}(...)", name);
+    if (!called && parser.GetFunDef().count(name) != 0) return fmt::format("has '{0}' without a '(' behind it; write {0}(...)", name);
   }
   return "";
 }

@@ -115,9 +115,8 @@ void of_the_linear_solver(Uses& uses) {
           "linear/form", [](const P& p) { return !condensed(p) || p.linear.form == algebra::SystemForm::reduced; },
           "method/condensation = false")
       .when(
-          "linear/check every",
-          [](const P& p) { return p.output.history || p.stopping.rule != StoppingRule::exact || p.stopping.estimate.value_or(false); },
-          "output/history = true, stopping/rule = inexact or adaptive, or stopping/estimate = true")
+          "linear/check every", [](const P& p) { return p.stopping.rule != StoppingRule::exact || p.stopping.estimate.value_or(false); },
+          "stopping/rule = inexact or adaptive, or stopping/estimate = true")
       .when("stopping/inexact factor", krylov, for_krylov);
 }
 
@@ -143,7 +142,8 @@ void of_stopping(Uses& uses) {
           "stopping/friedrichs constant", [](const P& p) { return of_method(p, MethodName::fem); }, "method/name = fem")
       .when("adapt", membranes, for_membranes)
       .when(
-          "adapt/theta", [](const P& p) { return !p.adapt || p.adapt->marking == Marking::dorfler; }, "adapt/marking = dorfler");
+          "adapt/theta", [](const P& p) { return !p.adapt || p.adapt->marking == Marking::dorfler || p.adapt->theta == 1; },
+          "adapt/marking = dorfler");
 }
 
 void of_time(Uses& uses) {

@@ -37,8 +37,14 @@ KOKKOS_FUNCTION FeasibleParts::Move FeasibleParts::move_pointwise(int K, LocalIn
                                                                   const double* gap, bool counts) const {
   const int n = functions.size();
   Move move;
-  const bool apart_already = smallest(n, gap) >= deviation.bound(place);
-  if (apart_already && !counts) return move;
+  const bool open = smallest(n, gap) >= deviation.bound(place);
+  if (open && !counts) return move;
+  if (open && !deviation.of_obstacle) {  // by D at most wider than the polynomial
+    double widest[most];
+    for (int k = 0; k < n; ++k) widest[k] = gap[k] + deviation.bound(place);
+    move.contact = contact_of(K, widest);
+    return move;
+  }
   if (at_points.data() != nullptr) at_points() = true;
   double a[max_density];
   if (counts) density.monomials(&lambda(K, 0), a);

@@ -105,7 +105,8 @@ TEST(Expression, says_what_is_wrong_with_the_text) {
   EXPECT_EQ(mistake("atan2(x)"), "the expression 'atan2(x)' gives too few arguments to 'atan2'.");
   EXPECT_EQ(mistake("2x"), "the expression '2x' has '2x'; write 2*x.");
   EXPECT_EQ(mistake("x + 1e-3y"), "the expression 'x + 1e-3y' has '1e-3y'; write 1e-3*y.");
-  EXPECT_EQ(mistake("sin x"), "the expression 'sin x' has 'sin' without a '('; write sin(...).");
+  EXPECT_EQ(mistake("sin x"), "the expression 'sin x' has 'sin' without a '(' behind it; write sin(...).");
+  EXPECT_EQ(mistake("sin (x)"), "the expression 'sin (x)' has 'sin' without a '(' behind it; write sin(...).");
   EXPECT_EQ(mistake("x**2"), "the expression 'x**2' has a '**'; write ^ for powers.");
   EXPECT_EQ(mistake("x < 1 and y < 1"), "the expression 'x < 1 and y < 1' has the word 'and'; write &&.");
   EXPECT_EQ(mistake("x < 1 or y < 1"), "the expression 'x < 1 or y < 1' has the word 'or'; write ||.");
