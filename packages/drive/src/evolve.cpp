@@ -178,7 +178,7 @@ class Run {
     const core::Region region("verification");
     const auto data = evolution_.kkt_data(*out_.X);
     const double residual = params_.stopping.nonlinear_tolerance * evolution_.problem().reference_norm() +
-                            params_.stopping.absolute_tolerance + evolution_.round_off();
+                            params_.stopping.absolute_tolerance + evolution_.round_off() + evolution_.problem().round_off(*out_.X);
     out_.kkt = complementarity::verify(data);
     out_.kkt_tolerance = params_.stopping.kkt_tolerance.value_or(data.allowed(residual));
   }

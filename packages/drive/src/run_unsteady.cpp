@@ -80,9 +80,10 @@ Verdict judge(const RunParams& params, const models::Evolution& evolution, const
   if (!outcome.stopped.empty())
     return {ExitCode::interrupted,
             fmt::format("{} at time {:.6g} of {:.6g}, after {}.", outcome.stopped, outcome.at.time, params.time->end, effort(outcome.at))};
-  if (!outcome.solved) return {ExitCode::not_converged, "not converged: " + outcome.why};
+  if (!outcome.solved)
+    return {ExitCode::not_converged, "not converged: " + outcome.why + (outcome.last.advice.empty() ? "" : " " + outcome.last.advice)};
   if (params.stopping.rule != complementarity::StoppingRule::adaptive && outcome.kkt && !outcome.kkt->holds(outcome.kkt_tolerance))
-    return {ExitCode::not_converged, "not converged: Newton stopped. " + outcome.kkt->sentence(outcome.kkt_tolerance)};
+    return {ExitCode::not_converged, not_in_contact(outcome.last, *outcome.kkt, outcome.kkt_tolerance)};
   const auto bound = evolution.estimate_so_far();
   if (params.stopping.target && bound && bound->total > *params.stopping.target)
     return {ExitCode::target_missed,
