@@ -2,7 +2,7 @@
 #   thixis::mpi        MPI without its C++ bindings
 #   thixis::kokkos     Kokkos alone          thixis::tpetra   Tpetra (and Kokkos, Teuchos)
 #   thixis::solvers    Belos, Ifpack2, Amesos2, MueLu         thixis::nox      NOX
-#   thixis::hdf5       parallel HDF5         thixis::metis, thixis::gmsh, thixis::muparser
+#   thixis::hdf5       parallel HDF5         thixis::metis, thixis::muparser, thixis::zlib
 # Installed along with the libraries: a client of Thixis finds the same things by the same file. Hence the targets are imported ones,
 # which an export refers to by name.
 include_guard(DIRECTORY)
@@ -59,8 +59,8 @@ function(thixis_plain_target name header library)
   target_link_libraries(thixis::${name} INTERFACE ${THIXIS_${name}_LIBRARY})
 endfunction()
 thixis_plain_target(metis metis.h metis)
-thixis_plain_target(gmsh gmsh.h gmsh)
 thixis_plain_target(muparser muParser.h muparser)
+thixis_plain_target(zlib zlib.h z)
 find_package(Basix REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(CLI11 REQUIRED)

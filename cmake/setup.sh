@@ -42,30 +42,33 @@ install_missing() {
   }
 }
 
-# Whether the build folder is configured with all of these settings -DNAME=VALUE.
+# configured_with PRESET [-DNAME=VALUE...]: whether its build folder is configured with all of these settings.
 configured_with() {
-  local setting
-  [ -f build/release/build.ninja ] || return 1
+  local folder=build/$1 setting
+  shift
+  [ -f "$folder/build.ninja" ] || return 1
   for setting in "$@"; do
-    sed 's/^/-D/; s/:[A-Z]*=/=/' build/release/CMakeCache.txt | grep -xF -e "$setting" >/dev/null || return 1
+    sed 's/^/-D/; s/:[A-Z]*=/=/' "$folder/CMakeCache.txt" | grep -xF -e "$setting" >/dev/null || return 1
   done
 }
 
-# configure [-DNAME=VALUE...]: preset `release` with these settings and those in $THIXIS_CMAKE, unless that is how it is configured.
+# configure PRESET [-DNAME=VALUE...]: with these settings and those in $THIXIS_CMAKE, unless that is how it is configured.
 configure() {
-  local log=build/release/configure.log
-  configured_with "$@" ${THIXIS_CMAKE:-} && return 0
-  mkdir -p build/release
-  cmake --preset release "$@" ${THIXIS_CMAKE:-} >"$log" 2>&1 </dev/null || {
+  local preset=$1 log=build/$1/configure.log
+  shift
+  configured_with "$preset" "$@" ${THIXIS_CMAKE:-} && return 0
+  mkdir -p "build/$preset"
+  cmake --preset "$preset" "$@" ${THIXIS_CMAKE:-} >"$log" 2>&1 </dev/null || {
     grep -A 5 'CMake Error' "$log" | head -n 20 >&2
     fail "the configuration failed; the whole output is in $log."
   }
 }
 
-# Builds the given targets, and says so if there is more to do than to look at the version.
+# build PRESET TARGET...: builds them, and says so if there is more to do than to look at the version.
 build() {
-  local log=build/release/build.log
-  ninja -C build/release "$@" 2>&1 </dev/null | {
+  local folder=build/$1 log=build/$1/build.log
+  shift
+  ninja -C "$folder" "$@" 2>&1 </dev/null | {
     files=0
     while IFS= read -r line; do
       echo "$line"
@@ -77,6 +80,21 @@ build() {
     grep -E 'error:|FAILED|CMake Error|undefined reference|cannot find' "$log" | head -n 20 >&2
     fail "the build failed; the whole output is in $log."
   }
+}
+
+# tidy PRESET [N]: clang-tidy on all sources, or on those that the last N commits touched and that are still there. Its warnings are errors.
+tidy() {
+  local folder=build/$1 commits=${2:-} files
+  if [ -n "$commits" ]; then
+    files=$(git log "-$commits" --no-merges --name-only --format= --diff-filter=d -- 'packages/*.cpp' 'apps/*.cpp' | sort -u |
+      while read -r file; do [ ! -f "$file" ] || echo "$PWD/$file"; done)
+  else
+    files=$(find "$PWD/packages" "$PWD/apps" -name '*.cpp')
+  fi
+  [ -n "$files" ] || return 0
+  echo "thixis: clang-tidy on $(wc -w <<<"$files") files" >&2
+  xargs -n 1 -P "$(nproc)" clang-tidy-14 -quiet -warnings-as-errors='*' -p "$folder" <<<"$files" 2>"$folder/tidy.log" ||
+    fail "clang-tidy found mistakes; $folder/tidy.log has what else it said."
 }
 
 # As root, on more ranks than cores, inside containers: all this is allowed.

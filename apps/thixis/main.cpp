@@ -12,6 +12,7 @@
 #include "thixis/core/assert.hpp"
 #include "thixis/core/deck.hpp"
 #include "thixis/core/log.hpp"
+#include "thixis/core/memory.hpp"
 #include "thixis/core/text.hpp"
 #include "thixis/drive/run.hpp"
 #include "thixis/output/checkpoint.hpp"
@@ -30,7 +31,7 @@ struct Arguments {
 /// f(deck, params, model) with the deck and its overrides, after everything is judged that needs no mesh. What shows only later gets its
 /// place in the deck, too.
 template <class F>
-core::ExitCode with_deck(core::Deck deck, const Arguments& arguments, F f) {
+core::ExitCode with_deck(core::Deck deck, const Arguments& arguments, bool restart, F f) {
   for (const auto& assignment : arguments.overrides) deck.set(assignment);
   auto params = deck.parse(drive::RunParams::schema());
   if (!arguments.output.empty()) params.output.directory = arguments.output;
@@ -46,8 +47,10 @@ core::ExitCode with_deck(core::Deck deck, const Arguments& arguments, F f) {
         mistakes += (mistakes.empty() ? "" : "\n") + std::string(mistake.what());
       }
     };
+    collect([&] { core::check_used(deck, drive::RunParams::uses(), params, restart); });
     collect([&] { drive::check_served(params); });
     collect([&] { model = make_model(params); });
+    if (model) collect([&] { drive::check_wanted(params, *model); });
     if (!mistakes.empty()) throw core::InputError(mistakes);
     return f(deck, params, *model);
   } catch (const core::Error& error) {
@@ -56,7 +59,7 @@ core::ExitCode with_deck(core::Deck deck, const Arguments& arguments, F f) {
 }
 
 core::ExitCode run(const Arguments& arguments, const core::Comm& comm) {
-  return with_deck(core::Deck::read(arguments.deck, comm), arguments,
+  return with_deck(core::Deck::read(arguments.deck, comm), arguments, false,
                    [&](const core::Deck& deck, const drive::RunParams& params, const models::Model& model) {
                      return drive::run(params, model, deck, comm, versions());
                    });
@@ -64,22 +67,30 @@ core::ExitCode run(const Arguments& arguments, const core::Comm& comm) {
 
 core::ExitCode restart(const Arguments& arguments, const core::Comm& comm) {
   const auto stored = output::read_checkpoint(arguments.deck, comm);
-  return with_deck(core::Deck::from_text(stored.deck(), stored.path(), stored.folder()), arguments,
+  return with_deck(core::Deck::from_text(stored.deck(), stored.path(), stored.folder()), arguments, true,
                    [&](const core::Deck& deck, const drive::RunParams& params, const models::Model& model) {
                      return drive::run(params, model, deck, comm, versions(), &stored);
                    });
 }
 
 core::ExitCode check(const Arguments& arguments, const core::Comm& comm) {
-  return with_deck(core::Deck::read(arguments.deck, comm), arguments,
-                   [](const core::Deck& deck, const drive::RunParams&, const models::Model&) {
+  return with_deck(core::Deck::read(arguments.deck, comm), arguments, false,
+                   [](const core::Deck& deck, const drive::RunParams& params, const models::Model& model) {
+                     drive::check_ahead(params, model);
                      core::log::info("{}: no mistakes found.", deck.file());
                      return core::ExitCode::done;
                    });
 }
 
 core::ExitCode describe(const Arguments& arguments, const core::Comm&) {
-  core::log::info("{}", core::describe(drive::RunParams::schema(), arguments.block, arguments.format));
+  if (const auto params = drive::starting(arguments.block)) {
+    if (arguments.format != core::Format::xml)
+      throw core::InputError(
+          fmt::format("thixis describe: '{}' is a scene, which is described as a deck; write --format xml.", arguments.block));
+    core::log::info("{}", core::skeleton(drive::RunParams::schema(), *params, drive::RunParams::uses()));
+    return core::ExitCode::done;
+  }
+  core::log::info("{}", core::describe(drive::RunParams::schema(), arguments.block, arguments.format, drive::RunParams::uses()));
   return core::ExitCode::done;
 }
 
@@ -116,7 +127,7 @@ core::ExitCode dispatch(int argc, char** argv, const core::Comm& comm) {
       "  thixis restart results/disk/checkpoint.h5                 go on from where a run ended, on any number of ranks\n"
       "  thixis check DECK                                         judge a deck without solving it\n"
       "  thixis describe newton                                    every parameter of a block\n"
-      "  thixis describe --format xml > new.xml                    a deck to start from\n\n"
+      "  thixis describe --format xml disk > new.xml               a deck to start from, for a model or a case\n\n"
       "Exit codes: 0 done, every 'expect' holds; 1 internal error; 2 command line or deck; 3 not converged;\n"
       "4 accuracy target or an 'expect' missed; 5 input or output; 6 told to end by a signal, with a checkpoint to go on from."};
   app.name("thixis");
@@ -150,7 +161,8 @@ core::ExitCode dispatch(int argc, char** argv, const core::Comm& comm) {
   add_verbosity(resume);
   add_deck(add("check", "Judge a deck without solving it; all mistakes at once", check));
   CLI::App* explain = add("describe", "Every parameter: type, default, range, one sentence", describe);
-  explain->add_option("block", arguments.block, "A block of the deck, e.g. newton or newton/initial (default: all)");
+  explain->add_option("block", arguments.block,
+                      "A block of the deck, e.g. newton or newton/initial (default: all); with xml also a model or a case");
   explain->add_option("--format", arguments.format, "text, markdown, or xml (a deck to start from)")
       ->transform(CLI::CheckedTransformer(std::map<std::string, core::Format>{
           {"text", core::Format::text}, {"markdown", core::Format::markdown}, {"xml", core::Format::xml}}));
@@ -185,16 +197,19 @@ int main(int argc, char** argv) {
   thixis::core::enable_floating_point_traps();
 #endif
   const thixis::core::Comm comm;
+  thixis::core::Error last(thixis::core::ExitCode::internal, "");
   try {
     return static_cast<int>(thixis::dispatch(static_cast<int>(own.size()), own.data(), comm));
   } catch (const thixis::core::Error& error) {  // thrown on all ranks alike
-    if (comm.root()) fmt::print(stderr, "{}\n", error.what());
+    if (comm.root()) fmt::print(stderr, "{}\n", thixis::core::printable(error.what()));
     return static_cast<int>(error.code());
   } catch (const std::exception& error) {
-    fmt::print(stderr, "thixis: internal error on rank {}: {}\n", comm.rank(), error.what());
+    last = thixis::core::as_error(error);
   } catch (const char* error) {  // thrown by NOX
-    fmt::print(stderr, "thixis: internal error on rank {}: {}\n", comm.rank(), error);
+    last = {thixis::core::ExitCode::internal, error};
   }
-  if (comm.size() > 1) MPI_Abort(comm.mpi(), static_cast<int>(thixis::core::ExitCode::internal));
-  return static_cast<int>(thixis::core::ExitCode::internal);
+  const char* kind = last.code() == thixis::core::ExitCode::internal ? "internal error " : "";
+  fmt::print(stderr, "thixis: {}on rank {}: {}\n", kind, comm.rank(), thixis::core::printable(last.what()));
+  if (comm.size() > 1) MPI_Abort(comm.mpi(), static_cast<int>(last.code()));
+  return static_cast<int>(last.code());
 }

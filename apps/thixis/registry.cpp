@@ -30,13 +30,6 @@ method::SpaceFactory make_method(const method::MethodParams& method) {
 std::array<scene::FieldPtr, 3> initial_fields(const drive::RunParams& params) {
   const auto& initial = params.newton.initial;
   const bool one = params.scene.model == scene::Model::obstacle;
-  const auto refuse = [](const char* name, const std::optional<core::Formula>& formula, const char* sentence) {
-    if (formula) throw core::InputError(std::string("newton/initial/") + name + ": " + sentence);
-  };
-  for (const auto& [name, formula] : {std::pair("u1", initial.u1), std::pair("u2", initial.u2)})
-    if (one) refuse(name, formula, "there is one membrane; write u in its place.");
-  if (!one) refuse("u", initial.u, "there are two membranes; write u1 and u2 in its place.");
-
   const auto field = [&](const char* name, const std::optional<core::Formula>& formula) -> scene::FieldPtr {
     if (!formula) return nullptr;
     const auto& data = params.scene.data;
@@ -46,17 +39,8 @@ std::array<scene::FieldPtr, 3> initial_fields(const drive::RunParams& params) {
   return {one ? field("u", initial.u) : field("u1", initial.u1), field("u2", initial.u2), field("lambda", initial.lambda)};
 }
 
-/// A step of a scene in time begins with the one before.
-void refuse_initial(const drive::RunParams& params) {
-  const auto& initial = params.newton.initial;
-  if (initial.u || initial.u1 || initial.u2 || initial.lambda)
-    throw core::InputError(
-        "newton/initial: every step in time begins with the one before; drop it, or give initial data in the block 'scene'.");
-}
-
 std::unique_ptr<models::Model> make_two_phase(const drive::RunParams& params) {
   if (params.method.name != method::MethodName::fv) throw core::InputError("method/name: two-phase flow is served by fv alone; write fv.");
-  refuse_initial(params);
   const drive::TimeParams time = params.time.value_or(drive::TimeParams{});
   auto scene = scene::two_phase_scene(params.scene);
   if (scene.time_unit == "year" && time.unit != drive::TimeUnit::year)
@@ -66,8 +50,9 @@ std::unique_ptr<models::Model> make_two_phase(const drive::RunParams& params) {
   const double seconds = drive::seconds_in(time.unit);
   models::TwoPhaseBoundParams bound;
   bound.measure = params.stopping.measure;
+  bound.adaptive = params.stopping.rule == complementarity::StoppingRule::adaptive;
   if (params.stopping.time_scale) bound.time_scale = *params.stopping.time_scale * seconds;
-  return models::two_phase(std::move(scene), params.linear, seconds, params.output.probes, bound);
+  return models::two_phase(std::move(scene), params.linear, seconds, bound);
 }
 
 }  // namespace
@@ -82,8 +67,8 @@ std::unique_ptr<models::Model> make_model(const drive::RunParams& params) {
       return models::membranes(scene::membrane_scene(params.scene), make_space, params.method, params.linear, initial_fields(params),
                                check_mesh);
     case scene::Model::parabolic_membranes:
-      refuse_initial(params);
-      return models::parabolic_membranes(scene::membrane_scene(params.scene), make_space, params.method, params.linear, check_mesh);
+      return models::parabolic_membranes(scene::membrane_scene(params.scene), make_space, params.method, params.linear, check_mesh,
+                                         params.stopping.friedrichs);
     default:
       throw core::InputError("scene/model: this version does not serve " + scene::to_text(params.scene.model) +
                              "; write membranes, obstacle, parabolic membranes or two-phase.");

@@ -137,6 +137,19 @@ def terminated():
     expect_same("ended", "whole")
 
 
+def mistaken():
+    """Data that are wrong from some time on cost the steps behind it, and no others."""
+    wrong = ["--set", "output/fields every=1"]
+    text = thixis("run", deck, "--output", "kept", *wrong, expect=2)
+    assert "solved up to time 0.5 of 1, in 5 time steps" in text and "scene/data/f1: the value at" in text, text
+    found = summary("kept")
+    assert found["exit_code"] == 2 and found["steps"] == 5 and abs(found["time_end"] - 0.5) < 1e-12, found
+    assert len(rows("kept", "series.csv")) == 6
+    assert sorted(round(moment, 9) for moment, _ in fields("kept").values()) == [0, 0.1, 0.2, 0.3, 0.4, 0.5]
+    thixis("restart", "kept/checkpoint.h5", "--set", "scene/data/f1=-1")
+    assert summary("kept")["steps"] == 10
+
+
 def on_other_ranks():
     """From one number of ranks to another, where the solvers leave nothing to differ."""
     exact = ["--set", "stopping/rule=exact", "--set", "stopping/linear tolerance=1e-13", "--set", "stopping/nonlinear tolerance=1e-10"]
@@ -152,4 +165,4 @@ def on_other_ranks():
 
 shutil.rmtree(scratch, ignore_errors=True)
 scratch.mkdir(parents=True)
-{"killed": killed, "terminated": terminated, "on_other_ranks": on_other_ranks}[scenario]()
+{"killed": killed, "terminated": terminated, "on_other_ranks": on_other_ranks, "mistaken": mistaken}[scenario]()

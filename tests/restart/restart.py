@@ -118,6 +118,10 @@ def mesh_file():
     a, b = summary("cut"), summary("whole")
     assert a["exit_code"] == 0 and a["newton_iterations"] == b["newton_iterations"]
     assert abs(a["energy_norm"] - b["energy_norm"]) <= 1e-10 * b["energy_norm"]
+    # what has taken the place of the mesh is read as a mesh, and never executed
+    (decks / "plate.msh").write_text('/*\n$MeshFormat\n2.2 0 8\n$EndMeshFormat\n*/\nSystemCall "touch executed";\n')
+    printed = thixis("restart", "../cut/checkpoint.h5", *GO_ON, folder=calls, expect=2)
+    assert "is not a Gmsh mesh" in printed and not list(scratch.rglob("executed")), printed
 
 
 def every():
@@ -168,7 +172,11 @@ def refusals():
         refused("There is no checkpoint 'none.h5'", 5, "none.h5", ranks=ranks)
         refused("is no checkpoint of Thixis", 5, "cut/fields.h5", ranks=ranks)
         refused("is no checkpoint of Thixis", 5, "cut/deck.xml", ranks=ranks)
-        refused("belongs to another mesh", 2, checkpoint, "--set", "mesh/cells per side=8", ranks=ranks)
+        refused("mesh/cells per side: the checkpoint 'cut/checkpoint.h5' belongs to another model, mesh or method", 2, checkpoint, "--set",
+                "mesh/cells per side=8", ranks=ranks)
+    refused("method/nodes: the checkpoint", 2, checkpoint, "--set", "method/nodes=bernstein")
+    refused("newton/initial/u1: a restart begins with the state of the checkpoint", 2, checkpoint, "--set", "newton/initial/u1=0.1")
+    refused("method/penalty: this is used only with method/name = dg", 2, checkpoint, "--set", "method/penalty=20")
     refused("belongs to level 3", 2, checkpoint, "--set", "mesh/refinements=2")
     refused("write newton/start = nested", 2, checkpoint, "--set", "mesh/refinements=4")
     refused("Did you mean 'max iterations'?", 2, checkpoint, "--set", "newton/max iteration=20")

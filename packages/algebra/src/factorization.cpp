@@ -1,11 +1,14 @@
 #include "factorization.hpp"
 
+#include <fmt/core.h>
+
 #include <Amesos2.hpp>
 #include <Teuchos_DefaultSerialComm.hpp>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
+#include "failure.hpp"
 #include "thixis/algebra/tpetra.hpp"
 
 namespace thixis::algebra {
@@ -133,19 +136,19 @@ void Factorization::set_matrix(const Teuchos::RCP<const Matrix>& A) {
   f.gather_values(*A);
 
   const core::Comm comm = comm_of(*A->getRowMap());
-  int regular = 1;
+  std::optional<std::string> failure;
   if (comm.root()) {
     try {
       f.view_serially();
       f.factorize();
-      regular = f.error_of_known_solution() < hopeless_error;
-    } catch (const std::exception&) {
-      regular = 0;
+      if (const double error = f.error_of_known_solution(); !(error < hopeless_error))
+        failure = fmt::format("a solution that is known comes out with a relative error of {:.1e}", error);
+    } catch (const std::exception& exception) {
+      failure = said_by(exception);
     }
   }
-  comm.broadcast(regular);
   comm.broadcast(f.symbolic_setups);
-  if (!regular) throw Breakdown("the matrix is singular");
+  break_down_together(comm, "the matrix is singular", failure);
 }
 
 void Factorization::solve(const Vector& b, Vector& x) const {

@@ -3,6 +3,7 @@
 #include <Ifpack2_Factory.hpp>
 #include <cmath>
 
+#include "failure.hpp"
 #include "thixis/algebra/tpetra.hpp"
 
 namespace thixis::algebra {
@@ -19,9 +20,11 @@ class Ilu : public Preconditioner {
     const bool new_graph = values_.is_null() || values_->getCrsGraph().get() != A->getCrsGraph().get();
     if (new_graph) create(*A);
     Kokkos::deep_copy(values_->getLocalMatrixDevice().values, A->getLocalMatrixDevice().values);
-    if (!set_up(new_graph) || !finite()) {
+    try {
+      set_up(new_graph);
+    } catch (const Breakdown&) {
       values_ = Teuchos::null;
-      throw Breakdown("the incomplete factorization has a zero pivot");
+      throw;
     }
   }
   Teuchos::RCP<const Operator> inverse() const override { return inverse_; }
@@ -58,18 +61,20 @@ class Ilu : public Preconditioner {
   }
 
   /// Collective. Rows of other ranks are copied by initialize() only, so overlapping factorizations need it for new values, too.
-  bool set_up(bool new_graph) {
-    bool failed = false;
+  void set_up(bool new_graph) {
+    const core::Comm comm = comm_of(*values_->getRowMap());
+    std::optional<std::string> failure;
     try {
       if (new_graph || overlapping_) {
         inverse_->initialize();
         ++symbolic_setups_;
       }
       inverse_->compute();
-    } catch (const std::exception&) {
-      failed = true;
+    } catch (const std::exception& exception) {
+      failure = said_by(exception);
     }
-    return !comm_of(*values_->getRowMap()).any(failed);
+    break_down_together(comm, "the incomplete factorization can not be set up", failure);
+    if (!finite()) throw Breakdown("the incomplete factorization has a zero pivot");
   }
 
   /// A zero pivot leaves infinity in the factors, and Ifpack2 does not say so.

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "factorization.hpp"
+#include "failure.hpp"
 #include "thixis/algebra/tpetra.hpp"
 #include "thixis/core/error.hpp"
 
@@ -128,16 +129,17 @@ Teuchos::ParameterList options(int fields, int ranks, const Teuchos::RCP<const M
 Teuchos::RCP<const Operator> muelu(const Teuchos::RCP<Matrix>& A, int fields, const Teuchos::RCP<const MultiVector>& coordinates) {
   auto list = options(fields, A->getComm()->getSize(), coordinates);
   Teuchos::RCP<const Operator> cycle;
-  bool works = false;
+  std::optional<std::string> failure;
   try {
     cycle = MueLu::CreateTpetraPreconditioner(Teuchos::RCP<Operator>(A), list);
     Vector ones(A->getRangeMap()), y(A->getDomainMap());
     ones.putScalar(1);
     cycle->apply(ones, y);
-    works = std::isfinite(norm2(y));
-  } catch (const std::exception&) {
+    if (!std::isfinite(norm2(y))) failure = "a cycle produces NaN or infinity";
+  } catch (const std::exception& exception) {
+    failure = said_by(exception);
   }
-  if (!comm_of(*A->getRowMap()).all(works)) throw Breakdown("multigrid can not be set up for this matrix");
+  break_down_together(comm_of(*A->getRowMap()), "multigrid can not be set up for this matrix", failure);
   return cycle;
 }
 

@@ -35,7 +35,7 @@ const core::Schema<NewtonParams>& NewtonParams::schema() {
                      "a basis function has no mean, both vanish up to round-off.")
           .choice("scaling", &NewtonParams::scaling, {{"none", Scaling::none}, {"physical", Scaling::physical}},
                   "Compare the gap with the multiplier itself, or with the multiplier scaled to a length.")
-          .parameter("sweeps", &NewtonParams::sweeps, core::at_least(0),
+          .parameter("sweeps", &NewtonParams::sweeps, core::between(0, 10000),
                      "Sweeps of nonlinear smoothing after each undamped step of c-function min, for symmetric methods; if not given, 10 "
                      "with nested "
                      "starts, otherwise none, which is plain Newton-min.");
@@ -73,7 +73,7 @@ const core::Schema<StoppingParams>& StoppingParams::schema() {
               "Estimate the error after every Newton step and at every look into the linear solver; if not given, only where rule, target "
               "or adaptivity need it.")
           .parameter("target", &Params::target, core::above(0),
-                     "The mesh is refined until the energy error is guaranteed to be at most this.")
+                     "The mesh is refined until the bound on the energy error is at most this; the verdict says what the bound promises.")
           .choice(
               "measure", &Params::measure, {{"residual", Measure::residual}, {"literature", Measure::literature}},
               "Two-phase flow: what the estimate measures, dual norms of the residuals without units, or the sum of the literature in SI "
@@ -82,8 +82,8 @@ const core::Schema<StoppingParams>& StoppingParams::schema() {
                      "Two-phase flow: the time in units of which the estimate counts, in the unit of time of the deck; if not given, 2500 "
                      "years.")
           .parameter("friedrichs constant", &Params::friedrichs, core::above(0),
-                     "C in |v| <= C |grad v| for the bound of the literature, a length; if not given, that of the box around the domain, "
-                     "which serves where the whole boundary is held.");
+                     "C in |v| <= C |grad v| for the bounds in time and of the literature, a length; if not given, that of the box around "
+                     "the domain, which serves where the whole boundary is held.");
   return s;
 }
 

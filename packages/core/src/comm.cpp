@@ -6,6 +6,8 @@
 #include <limits>
 #include <numeric>
 
+#include "thixis/core/memory.hpp"
+
 namespace thixis::core {
 
 namespace {
@@ -129,7 +131,8 @@ std::vector<char> Comm::gather_bytes(const void* data, std::size_t count, std::s
   return all;
 }
 
-void Comm::throw_together(const std::optional<Error>& error) const {
+void Comm::throw_together(const std::optional<Error>& here) const {
+  const auto error = here ? std::optional<Error>(as_error(*here)) : std::nullopt;
   const int first = reduced(error ? rank_ : size_, MPI_MIN, comm_);
   if (first == size_) return;
   int code = error ? static_cast<int>(error->code()) : 0;

@@ -4,10 +4,11 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 
 #include "block_reader.hpp"
+#include "limits.hpp"
+#include "thixis/core/file.hpp"
 #include "thixis/core/text.hpp"
 #include "xml_reader.hpp"
 
@@ -16,14 +17,35 @@ namespace thixis::core {
 namespace {
 
 std::string text_of_file(const std::string& path) {
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error)) throw FileError(fmt::format("{}: this is a folder; give the deck, an XML file.", path));
-  if (!std::filesystem::exists(path, error)) throw FileError(fmt::format("{}: there is no such file; give the path of a deck.", path));
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  if (file) text << file.rdbuf();
-  if (!file) throw FileError(fmt::format("{}: the file can not be read; check its permissions.", path));
-  return text.str();
+  const auto refused = [&](const char* sentence) { return FileError(fmt::format("{}: {}", one_line(path), sentence)); };
+  RegularFile file(path);
+  switch (file.state()) {
+    case RegularFile::State::folder:
+      throw refused("this is a folder; give the deck, an XML file.");
+    case RegularFile::State::absent:
+      throw refused("there is no such file; give the path of a deck.");
+    case RegularFile::State::special:
+      throw refused("this is no regular file, but a pipe or a device; write the deck to a file, and give its path.");
+    case RegularFile::State::unreadable:
+      throw refused("the file can not be read; check its permissions.");
+    case RegularFile::State::open:
+      break;
+  }
+  return file.read_up_to(limits::deck_bytes);
+}
+
+/// What is wrong with the words of a --set, or nothing.
+std::string mistake_of(const std::string& assignment, const std::vector<std::string>& names) {
+  const auto empty = [](const std::string& name) { return name.empty(); };
+  const auto too_long = [](const std::string& name) { return name.size() > limits::name_bytes; };
+  const auto unprintable = [](unsigned char c) { return c < 0x20; };
+  if (assignment.find('=') == std::string::npos || std::any_of(names.begin(), names.end(), empty))
+    return "this is no assignment; write path=value, e.g. --set method/degree=3.";
+  if (first_unprintable(assignment) != std::string::npos || std::any_of(assignment.begin(), assignment.end(), unprintable))
+    return "here is a control character, or a byte that is no UTF-8; remove it.";
+  if (names.size() > limits::nested_lists || std::any_of(names.begin(), names.end(), too_long))
+    return "no parameter of a deck has such a long path; write e.g. --set method/degree=3.";
+  return "";
 }
 
 std::vector<std::string> split_path(const std::string& path) {
@@ -71,8 +93,10 @@ Deck Deck::from_text(const std::string& text, const std::string& name, const std
 void Deck::set(const std::string& assignment) {
   const auto equals = assignment.find('=');
   const auto names = split_path(assignment.substr(0, equals));
-  if (equals == std::string::npos || std::any_of(names.begin(), names.end(), [](const std::string& name) { return name.empty(); }))
-    throw InputError(fmt::format("--set {}: this is no assignment; write path=value, e.g. --set method/degree=3.", assignment));
+  if (const std::string mistake = mistake_of(assignment, names); !mistake.empty())
+    throw InputError(fmt::format("--set {}: {}", one_line(shortened(assignment, limits::shown_bytes)), mistake));
+  if (assignments_.size() == limits::assignments)
+    throw InputError(fmt::format("--set: there are more than {} of them; write a deck.", limits::assignments));
 
   const int number = static_cast<int>(assignments_.size());
   assignments_.push_back(assignment);
@@ -109,7 +133,11 @@ void Deck::fill(const Description& description, void* params) const {
     return a.assignment != b.assignment ? a.assignment < b.assignment : a.assignment < 0 && a.line < b.line;
   });
   std::vector<std::string> lines;
-  for (const auto& mistake : mistakes) lines.push_back(message(mistake));
+  for (const auto& mistake : mistakes) {
+    if (lines.size() == limits::shown_mistakes) break;
+    lines.push_back(message(mistake));
+  }
+  if (mistakes.size() > lines.size()) lines.push_back(fmt::format("... and {} more mistakes.", mistakes.size() - lines.size()));
   throw InputError(join(lines, "\n"));
 }
 
@@ -117,7 +145,9 @@ std::string Deck::message(const Mistake& mistake) const {
   const std::string place =
       mistake.assignment < 0 ? fmt::format("{}:{}", file_, mistake.line) : fmt::format("--set {}", assignments_[mistake.assignment]);
   const std::string& path = mistake.path.empty() ? root_.name : mistake.path;
-  return fmt::format("{}: {}{}{}", place, path, path.empty() ? "" : ": ", mistake.sentence);
+  const std::string line =
+      fmt::format("{}: {}{}{}", shortened(place, limits::shown_bytes), path, path.empty() ? "" : ": ", mistake.sentence);
+  return one_line(shortened(line, 2 * limits::shown_bytes));
 }
 
 InputError Deck::error(const std::string& path, const std::string& sentence) const {

@@ -7,6 +7,7 @@
 #include "thixis/core/error.hpp"
 #include "thixis/core/schema.hpp"
 #include "thixis/core/text.hpp"
+#include "thixis/core/uses.hpp"
 #include "writer.hpp"
 
 namespace thixis::core {
@@ -44,6 +45,20 @@ const void* defaults_of(const Description::Block& block, const void* object, std
   if (block.single && !members.empty()) return members.front().second;
   keep = block.inside->make();
   return keep.get();
+}
+
+/// Says the conditions of entries and blocks; of several those of the first.
+void add_conditions(const Description& root, const std::vector<Use>& uses, std::vector<Section>& sections) {
+  std::map<std::string, std::string> conditions;
+  for (const auto& use : uses) conditions.emplace(use.path, " Only with " + use.condition + ".");
+  const auto add = [&](const std::string& path, std::string& sentence) {
+    if (const auto found = conditions.find(path); found != conditions.end()) sentence += found->second;
+  };
+  for (auto& section : sections) {
+    const std::string path = section.path == root.name() ? "" : section.path;
+    add(path, section.sentence);
+    for (auto& row : section.rows) add(joined_path(path, row.name), row.sentence);
+  }
 }
 
 void collect(const Description& description, const void* object, const std::string& path, const std::string& sentence,
@@ -101,47 +116,59 @@ std::string markdown_table(const Section& section) {
   return text + "\n";
 }
 
-/// A deck that can be read: everything of the chosen block, required entries elsewhere; what has no default is a comment.
+/// A deck that can be read: everything of the chosen block, required entries elsewhere; what has no value is a comment, and so is what
+/// takes no part, unless the deck is one for a scene: then it is left out.
 class Skeleton {
  public:
-  explicit Skeleton(std::string chosen) : chosen_(std::move(chosen)) {}
+  Skeleton(std::string chosen, const Unused& unused, bool of_scene) : chosen_(std::move(chosen)), unused_(unused), of_scene_(of_scene) {}
 
-  std::string of(const Description& root) {
-    const auto defaults = root.make();
+  std::string of(const Description& root, const void* params) {
     xml_.open(root.name());
-    block(root, defaults.get(), "");
+    block(root, params, "");
     xml_.close();
     return xml_.text();
   }
 
  private:
+  /// "", or when it is used: " Only with method/name = dg."
+  std::string condition(const std::string& path) const {
+    const auto found = unused_.find(path);
+    return found == unused_.end() ? "" : " Only with " + found->second->condition + ".";
+  }
+  bool left_out(const std::string& path) const { return of_scene_ && unused_.count(path) > 0; }
+
   bool is_chosen(const std::string& path) const { return chosen_.empty() || path == chosen_ || path.rfind(chosen_ + "/", 0) == 0; }
   bool is_around(const std::string& path) const { return chosen_.rfind(path + "/", 0) == 0; }
 
   void block(const Description& description, const void* object, const std::string& path) {
     for (const auto& parameter : description.parameters())
-      if (is_chosen(path) || parameter.required || parameter.exemplary) entry(parameter, parameter.name, object);
+      if (const std::string inside = joined_path(path, parameter.name);
+          (is_chosen(path) || parameter.required || parameter.exemplary) && !left_out(inside))
+        entry(parameter, parameter.name, object, inside);
     for (const auto& inside : description.blocks()) {
       const std::string inside_path = joined_path(path, inside.name);
-      if (is_chosen(inside_path) || is_around(inside_path) || has_required(inside)) sublist(inside, object, inside_path);
+      if ((is_chosen(inside_path) || is_around(inside_path) || has_required(inside)) && !left_out(inside_path))
+        sublist(inside, object, inside_path);
     }
   }
 
-  void entry(const Description::Parameter& parameter, const std::string& name, const void* object) {
-    const auto value = parameter.required || object == nullptr ? std::nullopt : write_value(parameter, object);
+  void entry(const Description::Parameter& parameter, const std::string& name, const void* object, const std::string& path) {
+    const auto value = (parameter.required && !of_scene_) || object == nullptr ? std::nullopt : write_value(parameter, object);
     const std::string values = values_text(parameter.range);
-    const std::string note =
-        parameter.sentence + (values.empty() ? "" : " Values: " + values + ".") + (parameter.required ? " Required." : "");
+    const std::string note = parameter.sentence + condition(path) + (values.empty() ? "" : " Values: " + values + ".") +
+                             (parameter.required ? " Required." : "");
     const bool before = xml_.hidden();
-    if (!value && !parameter.required && !parameter.exemplary) xml_.hide(true);
+    const bool shown = value || parameter.required || (parameter.exemplary && !of_scene_);
+    if (!shown || unused_.count(path) > 0) xml_.hide(true);
     xml_.parameter(name, value ? *value : example_value(parameter), note);
     xml_.hide(before);
   }
 
   void sublist(const Description::Block& inside, const void* object, const std::string& path) {
-    const bool before = xml_.hidden(), wanted = inside.always || inside.required || chosen_ == path || is_around(path);
-    if (!wanted) xml_.hide(true);
-    xml_.open(inside.name, is_chosen(path) ? inside.sentence : "");
+    const bool before = xml_.hidden(), there = inside.single && !inside.members(object).empty();
+    const bool wanted = inside.always || inside.required || chosen_ == path || is_around(path) || there;
+    if (!wanted || unused_.count(path) > 0) xml_.hide(true);
+    xml_.open(inside.name, is_chosen(path) ? inside.sentence + condition(path) : "");
     if (inside.single) {
       std::shared_ptr<void> keep;
       block(*inside.inside, defaults_of(inside, object, keep), path);
@@ -161,7 +188,7 @@ class Skeleton {
       block(*inside.inside, defaults.get(), path);
       xml_.close();
     } else {
-      entry(*inside.value, "NAME", nullptr);
+      entry(*inside.value, "NAME", nullptr, path);
     }
     xml_.hide(before);
   }
@@ -176,6 +203,8 @@ class Skeleton {
   }
 
   std::string chosen_;
+  const Unused& unused_;
+  bool of_scene_;
   XmlWriter xml_;
 };
 
@@ -198,12 +227,19 @@ void check_path(const Description& root, const std::string& path) {
 
 }  // namespace
 
-std::string describe(const Description& root, const std::string& path, Format format) {
+std::string skeleton(const Description& root, const void* params, const Unused& unused) {
+  return Skeleton("", unused, true).of(root, params);
+}
+
+std::string describe(const Description& root, const std::string& path, Format format) { return describe(root, path, format, {}); }
+
+std::string describe(const Description& root, const std::string& path, Format format, const std::vector<Use>& uses) {
   check_path(root, path);
-  if (format == Format::xml) return Skeleton(path).of(root);
-  std::vector<Section> sections;
   const auto defaults = root.make();
+  if (format == Format::xml) return Skeleton(path, unused(uses, defaults.get()), false).of(root, defaults.get());
+  std::vector<Section> sections;
   collect(root, defaults.get(), "", root.sentence(), sections);
+  add_conditions(root, uses, sections);
   std::string text;
   for (const auto& section : within(std::move(sections), path)) {
     if (section.rows.empty() && format == Format::text && section.path != path) continue;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <map>
 
 #include "thixis/core/assert.hpp"
 #include "thixis/core/error.hpp"
@@ -40,11 +41,19 @@ std::string mistake_of_form(const std::string& text) {
   return "";
 }
 
+/// A name in the text and what stands around it.
+struct Name {
+  std::string text;
+  std::string number;   ///< directly before it: "2" of "2x"
+  bool called = false;  ///< a parenthesis follows
+};
+
 /// The names in the text; numbers such as 1e-3 are skipped as a whole.
-std::vector<std::string> names_in(const std::string& text) {
+std::vector<Name> names_in(const std::string& text) {
   const auto is_digit = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0 || c == '.'; };
   const auto is_letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_'; };
-  std::vector<std::string> names;
+  std::vector<Name> names;
+  std::string number;
   for (std::size_t i = 0; i < text.size();) {
     std::size_t end = i;
     if (is_digit(text[i])) {
@@ -53,20 +62,46 @@ std::vector<std::string> names_in(const std::string& text) {
       if (exponent < text.size() && (text[exponent] == '+' || text[exponent] == '-')) ++exponent;
       if (exponent < text.size() && (text[end] == 'e' || text[end] == 'E') && is_digit(text[exponent])) end = exponent;
       while (end < text.size() && is_digit(text[end])) ++end;
-    } else if (is_letter(text[i])) {
+      number = text.substr(i, end - i);
+      i = end;
+      continue;
+    }
+    if (is_letter(text[i])) {
       while (end < text.size() && (is_letter(text[end]) || (is_digit(text[end]) && text[end] != '.'))) ++end;
-      names.push_back(text.substr(i, end - i));
+      const auto next = text.find_first_not_of(" \t\r\n", end);
+      names.push_back({text.substr(i, end - i), number, next != std::string::npos && text[next] == '('});
     } else {
       ++end;
     }
+    number.clear();
     i = end;
   }
   return names;
 }
 
+/// What other languages write for an operator of ours.
+std::string foreign_operator(const std::string& text) {
+  if (text.find("**") != std::string::npos) return "has a '**'; write ^ for powers";
+  if (text.find('%') != std::string::npos) return "has a '%', which means nothing here; the remainder of a by b is a - b*rint(a/b - 0.5)";
+  const std::map<std::string, std::string> words = {{"and", "&&"}, {"or", "||"}, {"not", "!"}};
+  for (const Name& name : names_in(text))
+    if (const auto found = words.find(name.text); found != words.end())
+      return fmt::format("has the word '{}'; write {}", name.text, found->second);
+  return "";
+}
+
+/// A product or a call as mathematicians write them.
+std::string missing_sign(const std::string& text, const mu::Parser& parser) {
+  for (const auto& [name, number, called] : names_in(text)) {
+    if (!number.empty()) return fmt::format("has '{0}{1}'; write {0}*{1}", number, name);
+    if (!called && parser.GetFunDef().count(name) != 0) return fmt::format("has '{0}' without a '('; write {0}(...)", name);
+  }
+  return "";
+}
+
 /// The first name in the text that means nothing, with the nearest known one. The parser would stumble over what follows the name.
 std::string unknown_name(const std::string& text, const mu::Parser& parser, const std::vector<std::string>& names) {
-  for (const auto& name : names_in(text)) {
+  for (const auto& [name, number, called] : names_in(text)) {
     if (std::find(names.begin(), names.end(), name) != names.end() || parser.GetFunDef().count(name) != 0) continue;
     std::vector<std::string> known = names;
     for (const auto& function : parser.GetFunDef()) known.push_back(function.first);
@@ -127,12 +162,15 @@ Expression::Expression(const std::string& text, const std::vector<std::string>& 
   c.point.assign(variables.size(), 0.0);
   c.used.assign(variables.size(), false);
   if (const std::string mistake = mistake_of_form(text); !mistake.empty()) throw InputError(sentence(text, mistake));
+  if (const std::string mistake = foreign_operator(text); !mistake.empty()) throw InputError(sentence(text, mistake));
+  c.parser.DefineInfixOprt("!", [](double value) { return value == 0 ? 1.0 : 0.0; });
   for (std::size_t i = 0; i < variables.size(); ++i) c.parser.DefineVar(variables[i], &c.point[i]);
   define_constants(c.parser, text, constants);
   std::vector<std::string> names = variables;
   names.emplace_back("pi");
   for (const auto& constant : constants) names.push_back(constant.first);
   if (const std::string mistake = unknown_name(text, c.parser, names); !mistake.empty()) throw InputError(sentence(text, mistake));
+  if (const std::string mistake = missing_sign(text, c.parser); !mistake.empty()) throw InputError(sentence(text, mistake));
   try {
     c.parser.SetExpr(text);
     const auto used = c.parser.GetUsedVar();

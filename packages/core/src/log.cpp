@@ -14,6 +14,8 @@
 #include <vector>
 
 #include "thixis/core/error.hpp"
+#include "thixis/core/file.hpp"
+#include "thixis/core/text.hpp"
 
 namespace thixis::core::log {
 
@@ -63,8 +65,10 @@ struct Log {
     if (bar) std::fputs("\r\033[K", stdout);
     bar = false;
   }
-  void show(spdlog::level::level_enum severity, const std::string& line) {
+  /// Here, and in what ends the program, words of decks, meshes and file names reach the terminal: as nothing but words.
+  void show(spdlog::level::level_enum severity, const std::string& words) {
     if (!on_root()) return;
+    const std::string line = printable(words);
     clear_bar();
     output->set_color_mode(on_terminal() ? spdlog::color_mode::automatic : spdlog::color_mode::never);
     terminal->log(severity, line);
@@ -87,6 +91,7 @@ void open(const std::string& path, Old old) {
   if (!on_root()) return;
   Log& log = the_log();
   log.file.reset();
+  require_plain_place(path);
   try {
     log.file = logger_on(std::make_shared<spdlog::sinks::basic_file_sink_mt>(path, old == Old::overwrite), "%v");
   } catch (const spdlog::spdlog_ex&) {
@@ -124,7 +129,7 @@ void Progress::update(double fraction, const std::string& note) {
   const auto now = std::chrono::steady_clock::now();
   if (the_log().bar && Seconds(now - shown_).count() < redraw_after) return;
   the_log().clear_bar();
-  std::fputs(progress_text(name_, fraction, Seconds(now - begin_).count(), note).c_str(), stdout);
+  std::fputs(one_line(progress_text(name_, fraction, Seconds(now - begin_).count(), note)).c_str(), stdout);
   std::fflush(stdout);
   the_log().bar = true;
   shown_ = now;

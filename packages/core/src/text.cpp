@@ -52,6 +52,46 @@ std::string number_part(const std::string& text) {
   return number;
 }
 
+/// A character of UTF-8; no bytes: there is none that is written in its shortest form and allowed to be written.
+struct Character {
+  unsigned long code = 0;
+  std::size_t bytes = 0;
+};
+
+Character character_at(const std::string& text, std::size_t at) {
+  const auto byte = [&](std::size_t k) { return at + k < text.size() ? static_cast<unsigned char>(text[at + k]) : 0u; };
+  const unsigned first = byte(0);
+  const std::size_t bytes = first < 0x80 ? 1 : first < 0xc2 ? 0 : first < 0xe0 ? 2 : first < 0xf0 ? 3 : first < 0xf5 ? 4 : 0;
+  unsigned long code = bytes < 2 ? first : first & (0x7fu >> bytes);
+  for (std::size_t k = 1; k < bytes; ++k) {
+    if ((byte(k) & 0xc0u) != 0x80u) return {};
+    code = code << 6 | (byte(k) & 0x3fu);
+  }
+  constexpr unsigned long least[] = {0, 0, 0x80, 0x800, 0x10000};
+  const bool surrogate = code >= 0xd800 && code < 0xe000;
+  return code < least[bytes] || surrogate || code > 0x10ffff ? Character{} : Character{code, bytes};
+}
+
+bool is_control(unsigned long code) { return code < 0x20 || (code >= 0x7f && code < 0xa0); }
+/// U+202A ... U+202E and U+2066 ... U+2069: what follows is shown in another order than it is read.
+bool turns_direction(unsigned long code) { return (code >= 0x202a && code <= 0x202e) || (code >= 0x2066 && code <= 0x2069); }
+
+std::string escaped(const std::string& text, const char* kept) {
+  std::string safe;
+  for (std::size_t i = 0; i < text.size();) {
+    const Character found = character_at(text, i);
+    const std::size_t bytes = std::max<std::size_t>(found.bytes, 1);
+    const std::string shown = text.substr(i, bytes);
+    const bool stays = found.code != 0 && std::string(kept).find(shown) != std::string::npos;
+    if (found.bytes == 0) safe += fmt::format("\\x{:02x}", static_cast<unsigned char>(text[i]));
+    else if (is_control(found.code) && !stays) safe += fmt::format("\\x{:02x}", found.code);
+    else if (turns_direction(found.code)) safe += fmt::format("\\u{:04x}", found.code);
+    else safe += shown;
+    i += bytes;
+  }
+  return safe;
+}
+
 template <class T>
 std::optional<T> parsed(const std::string& text) {
   const std::string number = number_part(text);
@@ -85,6 +125,28 @@ std::string join(const std::vector<std::string>& words, const std::string& separ
   std::string all;
   for (const auto& word : words) all += (all.empty() ? "" : separator) + word;
   return all;
+}
+
+std::string printable(const std::string& text) { return escaped(text, "\n\t"); }
+std::string one_line(const std::string& text) { return escaped(text, ""); }
+
+std::size_t first_unprintable(const std::string& text) {
+  for (std::size_t i = 0; i < text.size();) {
+    const Character found = character_at(text, i);
+    const bool blank = found.code == '\t' || found.code == '\n' || found.code == '\r';
+    if (found.bytes == 0 || (is_control(found.code) && !blank)) return i;
+    i += found.bytes;
+  }
+  return std::string::npos;
+}
+
+std::string shortened(const std::string& text, std::size_t most) {
+  if (text.size() <= most) return text;
+  const auto inside = [&](std::size_t at) { return (static_cast<unsigned char>(text[at]) & 0xc0u) == 0x80u; };
+  std::size_t end = most / 2, begin = text.size() - most / 2;
+  while (end > 0 && inside(end)) --end;
+  while (begin < text.size() && inside(begin)) ++begin;
+  return text.substr(0, end) + " ... " + text.substr(begin);
 }
 
 std::optional<double> to_double(const std::string& text) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <type_traits>
 
+#include "limits.hpp"
 #include "thixis/core/text.hpp"
 
 namespace thixis::core {
@@ -85,9 +86,13 @@ std::optional<Value> read_array(const Parameter& parameter, const std::string& t
     complaints.push_back(fmt::format("'{}' is not an array; write e.g. {}.", text, example_array(parameter.kind)));
     return std::nullopt;
   }
+  if (items->size() > limits::array_entries) {
+    complaints.push_back(fmt::format("has {} entries, which are too many; write at most {}.", items->size(), limits::array_entries));
+    return std::nullopt;
+  }
   const std::size_t before = complaints.size();
   std::vector<T> values;
-  for (std::size_t i = 0; i < items->size(); ++i)
+  for (std::size_t i = 0; i < items->size() && complaints.size() < before + limits::shown_of_array; ++i)
     if (const auto value = item((*items)[i], fmt::format("entry {} ", i + 1))) values.push_back(static_cast<T>(*value));
   if (complaints.size() == before) check_entries(parameter.range, items->size(), complaints);
   return complaints.size() == before ? std::optional<Value>(values) : std::nullopt;
@@ -220,10 +225,15 @@ std::optional<Value> read_value(const Parameter& parameter, const std::string& t
                                      parameter.kind == Kind::formula ? " or type=\"double\"" : ""));
     return std::nullopt;
   }
+  const bool array = is_array(parameter.kind);
+  if (!array && text.size() > limits::text_bytes) {
+    complaints.push_back(fmt::format("has {} letters, which are too many; write at most {}.", text.size(), limits::text_bytes));
+    return std::nullopt;
+  }
   const std::size_t before = complaints.size();
   const std::string who = fmt::format("'{}'", text);
   std::optional<Value> value;
-  if (is_array(parameter.kind)) {
+  if (array) {
     value = read_any_array(parameter, type, text, complaints);
   } else if (parameter.kind == Kind::boolean) {
     value = read_bool(text, complaints);

@@ -2,7 +2,8 @@
 
 #include <fmt/core.h>
 
-#include "thixis/core/schema.hpp"
+#include "block_reader.hpp"
+#include "thixis/core/uses.hpp"
 
 namespace thixis::core {
 
@@ -46,14 +47,34 @@ std::string commented(std::string text) {
   return "<!-- " + text + " -->";
 }
 
-void write_block(XmlWriter& xml, const Description& description, const void* object);
+/// Writes what takes part, block by block.
+class DeckWriter {
+ public:
+  explicit DeckWriter(const Unused& unused) : unused_(unused) {}
 
-void write_sublist(XmlWriter& xml, const Description::Block& block, const void* object) {
+  void write_block(const Description& description, const void* object, const std::string& path) {
+    for (const auto& parameter : description.parameters())
+      if (const auto value = write_value(parameter, object); value && used(joined_path(path, parameter.name)))
+        xml.parameter(parameter.name, *value);
+    for (const auto& block : description.blocks())
+      if (const std::string inside = joined_path(path, block.name); used(inside)) write_sublist(block, object, inside);
+  }
+
+  XmlWriter xml;
+
+ private:
+  bool used(const std::string& path) const { return unused_.count(path) == 0; }
+  void write_sublist(const Description::Block& block, const void* object, const std::string& path);
+
+  const Unused& unused_;
+};
+
+void DeckWriter::write_sublist(const Description::Block& block, const void* object, const std::string& path) {
   const auto members = block.members(object);
   if (block.single) {
     if (members.empty()) return;
     xml.open(block.name);
-    write_block(xml, *block.inside, members.front().second);
+    write_block(*block.inside, members.front().second, path);
     xml.close();
     return;
   }
@@ -62,19 +83,13 @@ void write_sublist(XmlWriter& xml, const Description::Block& block, const void* 
   for (const auto& [name, member] : members) {
     if (block.inside) {
       xml.open(name);
-      write_block(xml, *block.inside, member);
+      write_block(*block.inside, member, joined_path(path, name));
       xml.close();
     } else if (const auto value = write_value(*block.value, member)) {
       xml.parameter(name, *value);
     }
   }
   xml.close();
-}
-
-void write_block(XmlWriter& xml, const Description& description, const void* object) {
-  for (const auto& parameter : description.parameters())
-    if (const auto value = write_value(parameter, object)) xml.parameter(parameter.name, *value);
-  for (const auto& block : description.blocks()) write_sublist(xml, block, object);
 }
 
 }  // namespace
@@ -99,12 +114,14 @@ void XmlWriter::line(const std::string& element, const std::string& note) {
   text_ += '\n';
 }
 
-std::string to_xml(const Description& root, const void* params) {
-  XmlWriter xml;
-  xml.open(root.name());
-  write_block(xml, root, params);
-  xml.close();
-  return xml.text();
+std::string to_xml(const Description& root, const void* params) { return to_xml(root, params, Unused{}); }
+
+std::string to_xml(const Description& root, const void* params, const Unused& unused) {
+  DeckWriter deck(unused);
+  deck.xml.open(root.name());
+  deck.write_block(root, params, "");
+  deck.xml.close();
+  return deck.xml.text();
 }
 
 }  // namespace thixis::core

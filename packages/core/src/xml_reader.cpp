@@ -5,8 +5,11 @@
 #include <algorithm>
 #include <cctype>
 #include <map>
+#include <optional>
 #include <pugixml.hpp>
 
+#include "deck_text.hpp"
+#include "limits.hpp"
 #include "thixis/core/text.hpp"
 
 namespace thixis::core {
@@ -32,9 +35,13 @@ class Lines {
 
 class XmlReader {
  public:
-  XmlReader(const Lines& lines, std::vector<Deck::Mistake>& mistakes) : lines_(lines), mistakes_(mistakes) {}
+  XmlReader(const Lines& lines, const std::string& file, std::vector<Deck::Mistake>& mistakes)
+      : lines_(lines), file_(file), mistakes_(mistakes) {}
 
-  Deck::Entry list(const pugi::xml_node& node, const std::string& path) {
+  /// Throws InputError where the deck is too large to be read on.
+  Deck::Entry list(const pugi::xml_node& node, const std::string& path, int depth = 1) {
+    if (depth > limits::nested_lists)
+      fail(node, fmt::format("the lists are nested too deep; no block of a deck lies in more than {} others.", limits::nested_lists - 1));
     Deck::Entry entry;
     entry.list = true;
     entry.line = line(node);
@@ -42,7 +49,8 @@ class XmlReader {
     check_attributes(node, path, {"name", "id"});
     std::map<std::string, int> first;
     for (const auto& child : node.children()) {
-      auto member = read_member(child, path);
+      if (++read_ > limits::entries) fail(child, fmt::format("the deck is too long; it may have {} entries.", limits::entries));
+      auto member = read_member(child, path, depth);
       if (!member) continue;
       const auto [known, added] = first.emplace(member->name, member->line);
       if (!added) report(child, joined(path, member->name), fmt::format("already given on line {}; remove one of the two.", known->second));
@@ -59,7 +67,11 @@ class XmlReader {
  private:
   static std::string joined(const std::string& path, const std::string& name) { return path.empty() ? name : path + "/" + name; }
 
-  std::optional<Deck::Entry> read_member(const pugi::xml_node& node, const std::string& path) {
+  [[noreturn]] void fail(const pugi::xml_node& node, const std::string& sentence) const {
+    throw InputError(fmt::format("{}:{}: {}", one_line(file_), line(node), sentence));
+  }
+
+  std::optional<Deck::Entry> read_member(const pugi::xml_node& node, const std::string& path, int depth) {
     if (node.type() == pugi::node_pcdata || node.type() == pugi::node_cdata) {
       const std::string text = node.value();
       const auto begin = text.begin(), word = begin + static_cast<std::ptrdiff_t>(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
@@ -82,7 +94,20 @@ class XmlReader {
                          element == "Parameter" ? how_a_parameter_looks : "<ParameterList name=\"...\">"));
       return std::nullopt;
     }
-    return element == "ParameterList" ? list(node, joined(path, name)) : parameter(node, joined(path, name));
+    if (name.size() > limits::name_bytes) {
+      report(node, path, fmt::format("a name of {} letters is too long; write at most {}.", name.size(), limits::name_bytes));
+      return std::nullopt;
+    }
+    if (hidden(node, path, name)) return std::nullopt;
+    return element == "ParameterList" ? list(node, joined(path, name), depth + 1) : parameter(node, joined(path, name));
+  }
+
+  /// Ends of lines in an attribute are spaces; what is still one here was written as a reference.
+  bool hidden(const pugi::xml_node& node, const std::string& path, const std::string& text) {
+    const auto found = std::find_if(text.begin(), text.end(), [](unsigned char c) { return c < 0x20; });
+    if (found == text.end()) return false;
+    report(node, path, fmt::format("'{}' holds the character &#{};, which is none to write; remove it.", text, static_cast<int>(*found)));
+    return true;
   }
 
   Deck::Entry parameter(const pugi::xml_node& node, const std::string& path) {
@@ -95,7 +120,7 @@ class XmlReader {
     for (const char* attribute : {"type", "value"})
       if (!node.attribute(attribute))
         report(node, path, fmt::format("the attribute '{}' is missing; write {}.", attribute, how_a_parameter_looks));
-    entry.complete = node.attribute("type") && node.attribute("value");
+    entry.complete = node.attribute("type") && node.attribute("value") && !hidden(node, path, entry.value);
     if (node.first_child())
       report(node, path, fmt::format("a <Parameter> holds nothing between its tags; write {}.", how_a_parameter_looks));
     return entry;
@@ -113,7 +138,9 @@ class XmlReader {
   }
 
   const Lines& lines_;
+  const std::string& file_;
   std::vector<Deck::Mistake>& mistakes_;
+  int read_ = 0;  ///< elements, texts and comments so far
 };
 
 }  // namespace
@@ -122,21 +149,28 @@ Deck::Entry read_xml(const std::string& text, const std::string& file, std::vect
   constexpr const char* frame = "<ParameterList name=\"...\"> ... </ParameterList>";
   const Lines lines(text);
   const auto fail = [&](int line, const std::string& sentence) -> InputError {
-    return InputError(fmt::format("{}:{}: {}", file, line, sentence));
+    return InputError(fmt::format("{}:{}: {}", one_line(file), line, sentence));
   };
+  if (text.size() > limits::deck_bytes)
+    throw fail(1, fmt::format("the deck is larger than {} MB; decks are small, and meshes stand in files of their own (mesh/file).",
+                              limits::deck_bytes >> 20u));
   if (text.find_first_not_of(" \t\r\n") == std::string::npos) throw fail(1, fmt::format("the deck is empty; write {}.", frame));
+  if (const auto mistake = text_mistake(text)) throw fail(lines.of(static_cast<std::ptrdiff_t>(mistake->place)), mistake->sentence);
   pugi::xml_document document;
-  const auto result = document.load_buffer(text.data(), text.size(), pugi::parse_default | pugi::parse_fragment, pugi::encoding_utf8);
+  const auto result =
+      document.load_buffer(text.data(), text.size(), pugi::parse_default | pugi::parse_fragment | pugi::parse_doctype, pugi::encoding_utf8);
   if (!result) {
     std::string reason = result.description();
     if (!reason.empty()) reason[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(reason[0])));
     throw fail(lines.of(result.offset), fmt::format("this is no XML, here or just before: {}.", reason));
   }
-  XmlReader reader(lines, mistakes);
+  XmlReader reader(lines, file, mistakes);
   pugi::xml_node root;
   for (const auto& node : document.children()) {
     if (node.type() == pugi::node_pcdata)
       throw fail(reader.line(node), fmt::format("there is text outside of the outermost list; write {}.", frame));
+    if (node.type() == pugi::node_doctype)
+      throw fail(reader.line(node), "a deck has no document type, and no entities of its own; remove <!DOCTYPE ...>.");
     if (node.type() != pugi::node_element) continue;
     if (root) throw fail(reader.line(node), "a second outermost element begins here; put everything into one <ParameterList>.");
     root = node;

@@ -120,9 +120,10 @@ void HeldBoundary::tabulate() {
   }
 }
 
-void HeldBoundary::balance(const scene::Field& force, double t, const method::View<double**>& sigma) const {
+void HeldBoundary::balance(const scene::Field& force, double t, const method::HeldSource& source,
+                           const method::View<double**>& sigma) const {
   const auto host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), sigma);
-  const auto e = fetched(space_.mesh().comm.together([&] { return defects(force, t, host.data()); }));
+  const auto e = fetched(space_.mesh().comm.together([&] { return defects(force, t, source, host.data()); }));
   for (std::size_t c = 0; c < owned_; ++c)
     for (int l = 0; l < functions_; ++l) {
       const auto& entity = space_.basis().entities()[l];
@@ -143,11 +144,13 @@ void HeldBoundary::balance(const scene::Field& force, double t, const method::Vi
   Kokkos::deep_copy(sigma, host);
 }
 
-std::vector<double> HeldBoundary::defects(const scene::Field& force, double t, const double* sigma) const {
+std::vector<double> HeldBoundary::defects(const scene::Field& force, double t, const method::HeldSource& source,
+                                          const double* sigma) const {
   const auto& basis = space_.basis();
   std::vector<double> e(owned_ * functions_, 0.0);
   method::QuadraturePoints points(space_.quadrature());
   const method::View<double*> f("thixis::dg::force", space_.quadrature().largest_block);
+  const auto further = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), source.moments);
   for (std::size_t c = 0; c < owned_; ++c) {
     const Cell& cell = cells_[c];
     const auto& block = points.fill(cell.position, 1);
@@ -158,7 +161,7 @@ std::vector<double> HeldBoundary::defects(const scene::Field& force, double t, c
     const auto psi = basis.tabulate(block.points, xi.data()).value;
     for (int l = 0; l < functions_; ++l) {
       if (!cell.held[l]) continue;
-      double sum = 0;
+      double sum = further.extent(0) > 0 ? source.factor * further(cell.position, l) : 0;
       for (int q = 0; q < block.points; ++q) sum += weight(q) * value(q) * psi[q * functions_ + l];
       for (int r = 0; r < width_; ++r) sum -= divergence_[l * width_ + r] * sigma[cell.position * width_ + r];
       e[c * functions_ + l] = sum;

@@ -10,7 +10,7 @@ namespace thixis::dg {
 /// Where nodes are held, no equation tells how much flux passes: what is missing to the balance of a cell K against the functions psi_l of
 /// its held nodes,
 ///
-///     e_Kl = (f - div sigma, psi_l)_K,
+///     e_Kl = (f + s - div sigma, psi_l)_K,      s a further source (contact),
 ///
 /// is let out through the boundary (docs/methods/dg.md, 4). With Theta_l the functions dual to psi_l on a face F,
 ///
@@ -24,7 +24,7 @@ class HeldBoundary {
   /// `dirichlet`: the tags whose faces are held. The space must outlive this. Collective.
   HeldBoundary(const method::PolynomialSpace& space, const std::vector<bool>& dirichlet);
   /// Adds to sigma on the owned cells. Collective.
-  void balance(const scene::Field& force, double t, const method::View<double**>& sigma) const;
+  void balance(const scene::Field& force, double t, const method::HeldSource& source, const method::View<double**>& sigma) const;
 
  private:
   /// A patch cell with held nodes.
@@ -45,7 +45,7 @@ class HeldBoundary {
   Fan fan_around(LocalIndex K, int vertex, const std::vector<std::size_t>& place) const;
   void tabulate();
   /// e_Kl of the owned cells, [cell][n]; 0 for functions that are not held. Throws on this rank only.
-  std::vector<double> defects(const scene::Field& force, double t, const double* sigma) const;
+  std::vector<double> defects(const scene::Field& force, double t, const method::HeldSource& source, const double* sigma) const;
   /// The same of all cells_. Collective.
   std::vector<double> fetched(const std::vector<double>& own) const;
   /// x_0 … x_m of a vertex.

@@ -146,7 +146,7 @@ class Space final : public method::PolynomialSpace {
   }
 
   void native_flux(const scene::Field& tension, const scene::Field& force, const Coefficients& u, const BoundaryValues& boundary, double t,
-                   const View<double**>& sigma) const override {
+                   const method::HeldSource& at_held, const View<double**>& sigma) const override {
     if (!flux_tables_) flux_tables_ = flux_tables(basis_);
     const auto density = method::flux_density(mesh_, quadrature_, basis_.degree() - 1, tension);
     const FaceMoments moments = face_moments(mesh_, basis_.degree());
@@ -156,7 +156,7 @@ class Space final : public method::PolynomialSpace {
       });
     mesh_.comm.together([&] { add_boundary_fluxes(tension, boundary, t, moments); });
     dg::native_flux(mesh_, *flux_tables_, penalty_.theta, density, structure_.element_entries, u, moments, mesh_.owned_cells, sigma);
-    if (strong_) held_boundary().balance(force, t, sigma);
+    if (strong_) held_boundary().balance(force, t, at_held, sigma);
   }
 
  private:

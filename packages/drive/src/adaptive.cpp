@@ -19,24 +19,31 @@ void refine(mesh::Hierarchy& hierarchy, const std::vector<GlobalIndex>& marked) 
 void solve_adaptively(LevelSolver& solver, mesh::Hierarchy& hierarchy, const RunParams& params, const Observer& observer) {
   const AdaptParams adapt = params.adapt.value_or(AdaptParams());
   Outcome& outcome = solver.outcome();
-  const auto end = [&](const std::string& why) {
+  const auto end = [&](const std::string& why, const std::string& to_try) {
     outcome.refinement_ended = why;
+    outcome.to_try = to_try;
     solver.return_to_best();
   };
 
   for (int added = static_cast<int>(hierarchy.levels.size()) - 1 - params.mesh.refinements; solver.goes_on(); ++added) {
     if (params.stopping.target && outcome.estimate->total <= *params.stopping.target) return;
-    if (added >= adapt.max_levels) return end(fmt::format("adapt/max levels = {}", adapt.max_levels));
+    if (added >= adapt.max_levels)
+      return end(fmt::format("adapt/max levels = {}", adapt.max_levels),
+                 "allow more of them, take a larger adapt/theta or a higher method/degree, or begin with a finer mesh");
 
     const auto wanted = mark(*outcome.mesh, adapt, outcome.discretization->cell_estimates().discretization);
-    if (wanted.empty()) return end("no cell with a discretization error");
+    if (wanted.empty())
+      return end("no cell with a discretization error",
+                 "what is left comes from the solvers: lower stopping/linear tolerance and stopping/nonlinear tolerance");
     const auto marked = refinable(*outcome.mesh, wanted);
-    if (marked.empty()) return end("its smallest cells: no marked cell can be refined further");
+    if (marked.empty())
+      return end("its smallest cells: no marked cell can be refined further",
+                 "look at the field eta_disc: name the curves where data jump in scene/interface, or ask for less");
     refine(hierarchy, marked);
 
     const int level = outcome.at.level + 1;
     auto finer = solver.discretize(level);
-    if (!allowed(*finer, params)) return end(too_many_unknowns(params));
+    if (!allowed(*finer, params)) return end(too_many_unknowns(params), more_unknowns);
     if (observer.refined) observer.refined(level, marked);
     solver.solve(level, std::move(finer));
   }

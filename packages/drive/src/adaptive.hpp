@@ -10,6 +10,8 @@ void solve_adaptively(LevelSolver& solver, mesh::Hierarchy& hierarchy, const Run
 /// Whether an adaptive run may solve on this mesh (adapt/max unknowns), and what ends it otherwise.
 bool allowed(const models::Discretization& discretization, const RunParams& params);
 std::string too_many_unknowns(const RunParams& params);
+/// What to try then.
+constexpr const char* more_unknowns = "allow more of them, or take a higher method/degree";
 
 /// Throws InputError if the mesh that the run begins with has more unknowns than it may have.
 void require_allowed(const models::Discretization& discretization, const RunParams& params);

@@ -7,6 +7,9 @@
 
 #include "marking.hpp"
 #include "thixis/algebra/tpetra.hpp"
+#include "thixis/core/differences.hpp"
+#include "thixis/core/log.hpp"
+#include "thixis/core/text.hpp"
 #include "thixis/core/timer.hpp"
 #include "thixis/mesh/adapt.hpp"
 
@@ -17,6 +20,8 @@ namespace fs = std::filesystem;
 
 std::string absolute(const std::string& path) { return fs::absolute(path).lexically_normal().string(); }
 
+constexpr GlobalIndex most_rows = 1ll << 50;
+
 /// The block with the cells whose refinement made `level`.
 std::string marks_of(int level) { return fmt::format("marked for level {}", level); }
 
@@ -26,7 +31,7 @@ output::Checkpoint checkpoint_frame(const RunParams& params, const core::Deck& d
   RunParams as_run = params;
   as_run.output.directory = absolute(params.output.directory);
   output::Checkpoint frame;
-  frame.deck = core::to_xml(RunParams::schema(), as_run);
+  frame.deck = as_run.as_deck();
   frame.folder = absolute(deck.folder());
   return frame;
 }
@@ -68,11 +73,24 @@ void replay(const output::StoredCheckpoint& stored, mesh::Hierarchy& hierarchy, 
 }
 
 Position position_of(const output::StoredCheckpoint& stored) {
-  const auto count = [&](const char* name) { return static_cast<int>(stored.attribute(name)); };
+  const auto count = [&](const char* name) { return static_cast<int>(stored.count(name)); };
   return {stored.level(), count("newton_on_level"), count("newton_iterations"), count("linear_iterations")};
 }
-GlobalIndex history_rows_of(const output::StoredCheckpoint& stored) { return static_cast<GlobalIndex>(stored.attribute("history_rows")); }
-double seconds_of(const output::StoredCheckpoint& stored) { return stored.attribute("seconds"); }
+GlobalIndex history_rows_of(const output::StoredCheckpoint& stored) { return stored.count("history_rows", most_rows); }
+double seconds_of(const output::StoredCheckpoint& stored) { return stored.number("seconds", 0); }
+
+void say_differences(const output::StoredCheckpoint& stored, const RunParams& params) {
+  RunParams before = core::Deck::from_text(stored.deck(), stored.path()).parse(RunParams::schema());
+  before.output.directory = params.output.directory;
+  std::vector<std::string> of_problem, others;
+  for (const auto& difference : core::differences(RunParams::schema(), before, params)) {
+    const bool another = difference.path.rfind("scene/", 0) == 0 || difference.path == "mesh/file";
+    (another ? of_problem : others).push_back(difference.sentence());
+  }
+  if (!of_problem.empty())
+    core::log::warn("this is another problem than that of the checkpoint, whose state is where it begins: {}", core::join(of_problem));
+  if (!others.empty()) core::log::info("other parameters than those of the checkpoint: {}", core::join(others));
+}
 
 bool same_directory(const output::StoredCheckpoint& stored, const std::string& directory) {
   const auto before = core::Deck::from_text(stored.deck(), stored.path()).parse(RunParams::schema()).output.directory;
@@ -88,7 +106,7 @@ void check_restart(const output::StoredCheckpoint& stored, const RunParams& para
         fmt::format("mesh/refinements: the checkpoint '{}' belongs to level {} and the deck has the levels 0 to {}; "
                     "leave mesh as it was, or refine more.",
                     stored.path(), level, levels - 1));
-  const auto cells = static_cast<GlobalIndex>(stored.attribute("cells"));
+  const auto cells = stored.count("cells", most_rows);
   if (hierarchy.levels[level].global_cells != cells)
     throw core::InputError(fmt::format(
         "mesh: the checkpoint '{}' belongs to another mesh: its level {} has {} cells, that of the deck {}; leave mesh as it was.",

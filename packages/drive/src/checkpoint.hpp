@@ -38,6 +38,8 @@ void replay(const output::StoredCheckpoint& stored, mesh::Hierarchy& hierarchy, 
 
 /// What a checkpoint knows beside the iterate.
 Position position_of(const output::StoredCheckpoint& stored);
+/// Says in the log which parameters of the deck are not those of the checkpoint; a warning where they change what is solved.
+void say_differences(const output::StoredCheckpoint& stored, const RunParams& params);
 GlobalIndex history_rows_of(const output::StoredCheckpoint& stored);
 double seconds_of(const output::StoredCheckpoint& stored);
 

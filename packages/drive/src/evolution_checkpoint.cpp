@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <limits>
+
 #include "checkpoint.hpp"
 
 namespace thixis::drive {
@@ -34,13 +36,14 @@ StoredEvolution stored_evolution(const output::StoredCheckpoint& stored) {
   if (!stored.has_attribute("time_step"))
     throw core::InputError(
         fmt::format("scene/model: the checkpoint '{}' belongs to a stationary scene; leave the model as it was.", stored.path()));
-  const auto count = [&](const char* name) { return static_cast<int>(stored.attribute(name)); };
+  constexpr GlobalIndex most_rows = 1ll << 50;
+  const auto count = [&](const char* name) { return static_cast<int>(stored.count(name)); };
+  const int frames = count("frames");
   StoredEvolution evolution;
-  evolution.at = {count("time_step"), stored.attribute("time"), count("newton_iterations"), count("linear_iterations"), count("retries")};
-  evolution.next_length = stored.attribute("next_length");
-  evolution.written = {static_cast<GlobalIndex>(stored.attribute("history_rows")),
-                       static_cast<GlobalIndex>(stored.attribute("series_rows")), count("frames"), count("last_frame"),
-                       stored.attribute("seconds")};
+  evolution.at = {count("time_step"), stored.number("time", 0), count("newton_iterations"), count("linear_iterations"), count("retries")};
+  evolution.next_length = stored.number("next_length", std::numeric_limits<double>::min());
+  evolution.written = {stored.count("history_rows", most_rows), stored.count("series_rows", most_rows), frames,
+                       frames > 0 ? count("last_frame") : -1, stored.number("seconds", 0)};
   return evolution;
 }
 

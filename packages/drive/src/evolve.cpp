@@ -15,6 +15,8 @@ namespace {
 
 using algebra::Vector;
 
+constexpr double unseen = 0.1;  ///< part of the bound so far, in proportion to the time: a hundredth of its square
+
 /// The run from step to step.
 class Run {
  public:
@@ -24,13 +26,11 @@ class Run {
   EvolutionOutcome from(const output::StoredCheckpoint* stored) {
     out_.not_wanted = params_.newton.max_iterations == 0;
     begin(out_.not_wanted ? nullptr : stored);
-    while (!out_.not_wanted && !at_end() && advance()) {
-      if (observer_.stop) out_.stopped = observer_.stop(out_.at, control_.length(), evolution_, *out_.X);
-      if (!out_.stopped.empty()) break;
+    while (!out_.not_wanted && !at_end() && advanced() && !told_to_end()) {
     }
     out_.solved = at_end();
     out_.next_length = control_.length();
-    if (took_steps_ && out_.why.empty()) verify();
+    if (took_steps_ && at_its_end_) verify();
     return std::move(out_);
   }
 
@@ -53,10 +53,39 @@ class Run {
     observer_.step(record, evolution_, *out_.X, {});
   }
 
-  /// One accepted step; false if that is not possible.
+  bool told_to_end() {
+    if (observer_.stop) out_.stopped = observer_.stop(out_.at, control_.length(), evolution_, *out_.X);
+    return !out_.stopped.empty();
+  }
+
+  /// One accepted step; false if that is not possible. Steps before one whose data are wrong are kept.
+  bool advanced() {
+    try {
+      if (advance()) return true;
+      give_up();
+    } catch (const core::InputError& error) {
+      give_up();
+      if (out_.at.step == 0) throw;
+      out_.mistake = error.what();
+    }
+    return false;
+  }
+
+  /// X is at the begin of the step under way.
+  void give_up() {
+    if (at_its_end_) return;
+    const core::Region region("assembly");
+    evolution_.give_up();
+  }
+
+  /// Each turn makes the step shorter, but not below time/smallest, or the mesh finer, as far as `adapt` allows.
   bool advance() {
     const core::Stopwatch clock;
-    for (;;) {
+    for (bool again = false;; again = true) {
+      if (again) {
+        give_up();
+        if (told_to_end()) return false;
+      }
       const models::TimeStep step{out_.at.time, control_.end_of_step(out_.at.time)};
       const auto X = Teuchos::rcp(new Vector(*out_.X, Teuchos::Copy));
       if (!attempt(step, *X)) {
@@ -66,7 +95,7 @@ class Run {
       std::optional<models::StepErrors> errors;
       if (params_.estimated()) {
         if (finer_mesh(step)) continue;
-        errors = evolution_.step_errors();
+        errors = errors_of(step);
         if (errors && control_.too_long(step.length(), *errors)) {
           retry(step, fmt::format("the error in time {:.2e} is large beside that in space, {:.2e}", errors->time, errors->space));
           continue;
@@ -77,11 +106,20 @@ class Run {
     }
   }
 
+  /// What the step may add to the bound without being seen in it counts for nothing.
+  std::optional<models::StepErrors> errors_of(const models::TimeStep& step) const {
+    auto errors = evolution_.step_errors();
+    const auto so_far = evolution_.estimate_so_far();
+    if (errors && so_far) errors->negligible = std::max(errors->negligible, unseen * so_far->total * std::sqrt(step.length() / step.end));
+    return errors;
+  }
+
   /// Newton from a prediction or, where there is none or it leads nowhere, from the state before; false if it fails.
   bool attempt(const models::TimeStep& step, Vector& X) {
     bool ahead = false;
     {
       const core::Region region("assembly");
+      at_its_end_ = false;
       evolution_.begin(step, *out_.X);
       ahead = evolution_.predict(X);
     }
@@ -98,15 +136,41 @@ class Run {
     complementarity::StoppingParams stopping = params_.stopping;
     stopping.absolute_tolerance += evolution_.round_off();
     out_.last = complementarity::newton(evolution_.problem(), X, newton, stopping, params_.linear.check_every, on_step(step.end),
-                                        [this](const Vector& iterate) { return evolution_.estimate(iterate); });
+                                        [this](const Vector& iterate) { return look(iterate); });
     out_.at.newton_iterations += out_.last.steps;
     out_.at.linear_iterations += out_.last.linear_iterations;
-    if (!out_.last.converged || !std::isfinite(algebra::norm2(X))) return false;
+    if (!out_.last.converged || !std::isfinite(algebra::norm2(X)) || objected(X)) return false;
     if (params_.estimated()) {
       const core::Region region("estimate");
       eta_ = out_.last.estimate ? *out_.last.estimate : evolution_.estimate(X);
     }
     return true;
+  }
+
+  /// The estimate at an iterate, and, for the history, its error.
+  complementarity::Estimate look(const Vector& iterate) {
+    const auto estimate = evolution_.estimate(iterate);
+    const core::Region region("verification");
+    if (params_.output.history) error_at_look_ = evolution_.step_energy_error(iterate);
+    return estimate;
+  }
+
+  /// Whether the model refuses what the nonlinear solver takes for a solution.
+  bool objected(const Vector& X) {
+    const core::Region region("verification");
+    const bool conditions = params_.stopping.rule != complementarity::StoppingRule::adaptive;
+    const std::string why = evolution_.objection(X, kkt_tolerance(complementarity::KktData()), conditions);
+    if (why.empty()) return false;
+    out_.last.converged = false;
+    out_.last.why = why;
+    return true;
+  }
+
+  /// Of the deck, or what the tolerance of the nonlinear solver allows.
+  double kkt_tolerance(const complementarity::KktData& data) {
+    const double residual = params_.stopping.nonlinear_tolerance * evolution_.problem().reference_norm() +
+                            params_.stopping.absolute_tolerance + evolution_.round_off() + evolution_.problem().round_off(*out_.X);
+    return params_.stopping.kkt_tolerance.value_or(data.allowed(residual));
   }
 
   bool cut(const models::TimeStep& step) {
@@ -115,8 +179,10 @@ class Run {
       return true;
     }
     ++out_.at.retries;
-    out_.why = fmt::format("the step from time {:.6g} to {:.6g} failed, and shorter ones would be below time/smallest = {:.3g}: {}",
-                           step.begin, step.end, control_.smallest(), out_.last.why);
+    out_.why = fmt::format(
+        "the step from time {:.6g} to {:.6g} failed, and shorter ones would be below time/smallest = {:.3g}: {} Try a smaller "
+        "time/smallest, more newton/max iterations, or newton/globalization = hybrid.",
+        step.begin, step.end, control_.smallest(), out_.last.why);
     return false;
   }
 
@@ -144,6 +210,8 @@ class Run {
     out_.refinement_limited = false;
     if (marked.empty()) return false;
     out_.X = evolution_.refine(marked, *out_.X);
+    out_.active = {};
+    control_.forget();
     if (observer_.refined) observer_.refined(out_.at, static_cast<GlobalIndex>(marked.size()), evolution_);
     return true;
   }
@@ -154,8 +222,14 @@ class Run {
       const core::Region region("verification");
       evolution_.accept(*X);
     }
+    if (const auto remark = evolution_.remark(); !remark.empty() && !remarked_ && observer_.message) {
+      observer_.message(remark);
+      remarked_ = true;
+    }
+    at_its_end_ = true;
     control_.accept(step.length(), errors);
     out_.X = X;
+    out_.active = out_.last.active_set;
     ++out_.at.step;
     took_steps_ = true;
     out_.at.time = step.end;
@@ -177,19 +251,21 @@ class Run {
   void verify() {
     const core::Region region("verification");
     const auto data = evolution_.kkt_data(*out_.X);
-    const double residual = params_.stopping.nonlinear_tolerance * evolution_.problem().reference_norm() +
-                            params_.stopping.absolute_tolerance + evolution_.round_off() + evolution_.problem().round_off(*out_.X);
     out_.kkt = complementarity::verify(data);
-    out_.kkt_tolerance = params_.stopping.kkt_tolerance.value_or(data.allowed(residual));
+    out_.kkt_tolerance = kkt_tolerance(data);
   }
 
   complementarity::NewtonObserver on_step(double end) {
     complementarity::NewtonObserver newton;
     newton.message = observer_.message;
     if (observer_.newton)
-      newton.step = [this, end](const complementarity::NewtonRecord& record) { observer_.newton(out_.at, end, record); };
+      newton.step = [this, end](const complementarity::NewtonRecord& record) {
+        observer_.newton(out_.at, end, record, record.estimate ? error_at_look_ : std::nullopt);
+      };
     if (observer_.check)
-      newton.linear = [this, end](const complementarity::LinearRecord& record) { observer_.check(out_.at, end, record); };
+      newton.linear = [this, end](const complementarity::LinearRecord& record) {
+        observer_.check(out_.at, end, record, record.estimate ? error_at_look_ : std::nullopt);
+      };
     return newton;
   }
 
@@ -200,6 +276,9 @@ class Run {
   StepControl control_;
   EvolutionOutcome out_;
   bool took_steps_ = false;
+  bool remarked_ = false;                         ///< one remark is enough
+  bool at_its_end_ = true;                        ///< X is the end of the step that the evolution knows of, not its begin
+  std::optional<double> error_at_look_;           ///< of the step, where its estimate was asked for last
   std::optional<complementarity::Estimate> eta_;  ///< of the last attempt, where the error is estimated
 };
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace thixis::drive {
 namespace {
 
@@ -15,26 +17,52 @@ struct Clauses {
     else if (!(*value <= *bound))
       missed.push_back(fmt::format("{} {:.5g} is above {:.5g}", what, static_cast<double>(*value), static_cast<double>(*bound)));
   }
-  void between(const char* what, const std::optional<double>& value, const std::optional<std::vector<double>>& bounds) {
+  void between(const std::string& what, const std::optional<double>& value, const std::optional<std::vector<double>>& bounds) {
     if (!bounds) return;
     if (!value) missed.push_back(fmt::format("{} is not known", what));
     else if (!(*value >= bounds->at(0) && *value <= bounds->at(1)))
       missed.push_back(fmt::format("{} {:.5g} is not between {:.5g} and {:.5g}", what, *value, bounds->at(0), bounds->at(1)));
+  }
+  void promised(const std::optional<complementarity::Promise>& promise, const std::optional<complementarity::Promise>& expected) {
+    if (!expected) return;
+    if (!promise) missed.push_back("what the bound promises is not known");
+    else if (*promise > *expected) missed.push_back(fmt::format("the bound is '{}', not '{}'", to_text(*promise), to_text(*expected)));
   }
   void equal(const char* what, long long value, const std::optional<long long>& expected) {
     if (expected && value != *expected) missed.push_back(fmt::format("{} {}, not {}", what, value, *expected));
   }
 };
 
+std::optional<double> area(const Found& found) { return found.contact ? std::optional(found.contact->area) : std::nullopt; }
+std::optional<double> force(const Found& found) { return found.contact ? std::optional(found.contact->force) : std::nullopt; }
+
 }  // namespace
+
+std::map<std::string, double> values_by_name(const ExpectParams& expect, const std::vector<std::string>& fields,
+                                             const std::vector<double>& values) {
+  std::map<std::string, double> by_name;
+  std::size_t row = 0;
+  for (const auto& [name, at] : expect.at) {
+    const auto column = std::find(fields.begin(), fields.end(), at.field) - fields.begin();
+    if (row + fields.size() <= values.size()) by_name[name] = values[row + static_cast<std::size_t>(column)];
+    row += fields.size();
+  }
+  return by_name;
+}
 
 Found found(const Outcome& outcome) {
   Found found;
   found.solved = !outcome.not_wanted;
   found.energy_error = outcome.energy_error;
   if (outcome.kkt) found.kkt = outcome.kkt->worst();
-  if (outcome.estimate) found.bound = outcome.estimate->total;
+  if (outcome.estimate) {
+    found.bound = outcome.estimate->total;
+    found.promise = outcome.estimate->promise;
+  }
   found.effectivity = outcome.effectivity();
+  if (found.solved) found.energy_norm = outcome.energy_norm;
+  found.contact = outcome.contact;
+  found.at = outcome.at_points;
   found.newton_iterations = outcome.at.newton_iterations;
   found.newton_finest = outcome.at.newton_on_level;
   found.linear_iterations = outcome.at.linear_iterations;
@@ -53,12 +81,21 @@ std::vector<std::string> missed(const ExpectParams& expect, const Found& found) 
     clauses.at_most("number of Krylov iterations", found.linear_iterations, expect.linear_iterations_at_most);
     clauses.at_most("violation of the contact conditions", found.kkt, expect.kkt_at_most);
     clauses.at_most("bound", found.bound, expect.bound_at_most);
+    clauses.promised(found.promise, expect.promise);
     clauses.between("effectivity", found.effectivity, expect.effectivity_between);
     clauses.at_most("number of time steps", found.steps, expect.steps_at_most);
     clauses.at_most("number of steps that were begun again", found.retries, expect.retries_at_most);
     clauses.at_most("defect of the water balance", found.water_balance, expect.water_balance_at_most);
     clauses.at_most("defect of the hydrogen balance", found.hydrogen_balance, expect.hydrogen_balance_at_most);
     clauses.between("front", found.front, expect.front_between);
+    clauses.between("energy norm", found.energy_norm, expect.energy_norm_between);
+    clauses.between("contact area", area(found), expect.contact_area_between);
+    clauses.between("contact force", force(found), expect.force_between);
+    for (const auto& [name, at] : expect.at) {
+      const auto value = found.at.find(name);
+      clauses.between(fmt::format("{} at '{}'", at.field, name), value == found.at.end() ? std::nullopt : std::optional(value->second),
+                      at.between);
+    }
   }
   clauses.equal("unknowns:", found.unknowns, expect.unknowns);
   clauses.equal("cells:", found.cells, expect.cells);

@@ -1,4 +1,6 @@
 #pragma once
+#include <map>
+
 #include "thixis/drive/params.hpp"
 #include "thixis/drive/stationary.hpp"
 
@@ -8,11 +10,19 @@ namespace thixis::drive {
 struct Found {
   bool solved = true;  ///< false: nothing was to be solved, only the counts are judged
   std::optional<double> energy_error, kkt, bound, effectivity;
+  std::optional<complementarity::Promise> promise;
   std::optional<int> newton_iterations, newton_finest, linear_iterations, steps, retries;
   std::optional<double> water_balance, hydrogen_balance, front;
+  std::optional<double> energy_norm;
+  std::optional<models::Contact> contact;
+  std::map<std::string, double> at;  ///< by the names of ExpectParams::at
   GlobalIndex unknowns = 0, cells = 0;
 };
 Found found(const Outcome& outcome);
+
+/// The values that `expect` asks for among all fields at its points, [point][field].
+std::map<std::string, double> values_by_name(const ExpectParams& expect, const std::vector<std::string>& fields,
+                                             const std::vector<double>& values);
 
 /// The expectations that are missed, a clause each: "energy error 2.1e-03 is above 2.0e-03".
 std::vector<std::string> missed(const ExpectParams& expect, const Found& found);

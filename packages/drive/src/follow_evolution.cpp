@@ -27,10 +27,14 @@ FollowEvolution::FollowEvolution(const output::RunDirectory& directory, const Ru
 
 EvolutionObserver FollowEvolution::observer() {
   EvolutionObserver observer;
-  observer.newton = [this](const TimePosition& at, double end, const complementarity::NewtonRecord& record) { newton(at, end, record); };
+  observer.newton = [this](const TimePosition& at, double end, const complementarity::NewtonRecord& record, std::optional<double> error) {
+    newton(at, end, record, error);
+  };
   // under the exact rule nobody looks at linear iterates, and none is formed, unless the user wants to see the estimate there
   if (params_.stopping.rule != complementarity::StoppingRule::exact || params_.stopping.estimate.value_or(false))
-    observer.check = [this](const TimePosition& at, double end, const complementarity::LinearRecord& record) { check(at, end, record); };
+    observer.check = [this](const TimePosition& at, double end, const complementarity::LinearRecord& record, std::optional<double> error) {
+      check(at, end, record, error);
+    };
   observer.retry = [this](const TimePosition& at, double length, const std::string& why, double next) { retry(at, length, why, next); };
   observer.refined = [](const TimePosition& at, GlobalIndex marked, const models::Evolution& evolution) {
     log::info("{:>6}  {} cells were refined: {} cells, {} unknowns", at.step + 1, marked, evolution.cells(),
@@ -87,7 +91,10 @@ void FollowEvolution::show(int step, double time, const models::Evolution& evolu
 
 void FollowEvolution::finish(const models::Evolution& evolution, const EvolutionOutcome& outcome) {
   // what was stopped goes on with the frames that it would have had
-  if (outcome.stopped.empty()) show(outcome.at.step, outcome.at.time, evolution, *outcome.X, outcome.last.active_set);
+  if (outcome.stopped.empty()) {
+    estimated_ = estimated_ && outcome.solved;  // what was seen last is an attempt that has failed
+    show(outcome.at.step, outcome.at.time, evolution, *outcome.X, outcome.active);
+  }
   if (fields_) fields_->close();
 }
 
@@ -103,11 +110,13 @@ void FollowEvolution::save(const TimePosition& at, double next_length, const mod
 }
 
 std::string FollowEvolution::stop(const TimePosition& at, double next_length, const models::Evolution& evolution,
-                                  const algebra::Vector& X) const {
+                                  const algebra::Vector& X) {
   const int signal = Interrupt::asked(evolution.comm());
   const int every = params_.output.checkpoint_every;
   if (at.time >= params_.time->end) return "";  // the run is done, and writes its last checkpoint itself
-  if (signal != 0 || (every > 0 && at.step % every == 0)) save(at, next_length, evolution, X);
+  const bool due = every > 0 && at.step % every == 0 && at.step != saved_step_;
+  if (signal != 0 || due) save(at, next_length, evolution, X);
+  if (due) saved_step_ = at.step;
   return signal == 0 ? "" : fmt::format("told to end by {}", Interrupt::name(signal));
 }
 
@@ -117,7 +126,7 @@ void FollowEvolution::retry(const TimePosition& at, double length, const std::st
 }
 
 output::HistoryRow FollowEvolution::row_within(const TimePosition& at, double end, int newton, int linear, double residual,
-                                               const std::optional<complementarity::Estimate>& eta) const {
+                                               const std::optional<complementarity::Estimate>& eta, std::optional<double> error) const {
   output::HistoryRow row;
   row.time_step = at.step + 1;
   row.time = end;
@@ -125,21 +134,22 @@ output::HistoryRow FollowEvolution::row_within(const TimePosition& at, double en
   row.linear = linear;
   row.residual = residual;
   set_estimate(row, eta);
+  row.energy_error = error;
   row.seconds = seconds();
   return row;
 }
 
-void FollowEvolution::newton(const TimePosition& at, double end, const complementarity::NewtonRecord& record) {
+void FollowEvolution::newton(const TimePosition& at, double end, const complementarity::NewtonRecord& record, std::optional<double> error) {
   log::detail("{:>10} {:>3}{:>38}{:>10}{:>13.4e}{}", "Newton", record.step, record.linear_iterations, record.active, record.residual,
               estimate_columns(record.estimate));
-  output::HistoryRow row = row_within(at, end, record.step, record.linear_iterations, record.residual, record.estimate);
+  output::HistoryRow row = row_within(at, end, record.step, record.linear_iterations, record.residual, record.estimate, error);
   row.active = record.active;
   row.changed = record.changed;
   history_.append(row);
 }
 
-void FollowEvolution::check(const TimePosition& at, double end, const complementarity::LinearRecord& record) {
-  history_.append(row_within(at, end, record.step, record.iteration, record.residual, record.estimate));
+void FollowEvolution::check(const TimePosition& at, double end, const complementarity::LinearRecord& record, std::optional<double> error) {
+  history_.append(row_within(at, end, record.step, record.iteration, record.residual, record.estimate, error));
 }
 
 }  // namespace thixis::drive

@@ -29,11 +29,11 @@ class FollowEvolution {
             const complementarity::ActiveSet& active);
   /// A row of the history within a step that ends at `end`.
   output::HistoryRow row_within(const TimePosition& at, double end, int newton, int linear, double residual,
-                                const std::optional<complementarity::Estimate>& eta) const;
-  void newton(const TimePosition& at, double end, const complementarity::NewtonRecord& record);
-  void check(const TimePosition& at, double end, const complementarity::LinearRecord& record);
+                                const std::optional<complementarity::Estimate>& eta, std::optional<double> error) const;
+  void newton(const TimePosition& at, double end, const complementarity::NewtonRecord& record, std::optional<double> error);
+  void check(const TimePosition& at, double end, const complementarity::LinearRecord& record, std::optional<double> error);
   void retry(const TimePosition& at, double length, const std::string& why, double next) const;
-  std::string stop(const TimePosition& at, double next_length, const models::Evolution& evolution, const algebra::Vector& X) const;
+  std::string stop(const TimePosition& at, double next_length, const models::Evolution& evolution, const algebra::Vector& X);
   void show(int step, double time, const models::Evolution& evolution, const algebra::Vector& X, const complementarity::ActiveSet& active);
 
   const RunParams& params_;
@@ -43,6 +43,7 @@ class FollowEvolution {
   std::optional<output::Series> series_;       ///< where the scene has one
   std::optional<output::FieldWriter> fields_;  ///< where fields are asked for
   int last_frame_;                             ///< the step of the last frame; -1: none
+  int saved_step_ = 0;                         ///< of the last checkpoint that was due
   bool estimated_ = false;                     ///< the last step
   double first_time_;
   core::Stopwatch clock_;

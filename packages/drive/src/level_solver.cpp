@@ -53,9 +53,17 @@ void LevelSolver::run_newton() {
   models::Discretization& discretization = *outcome_.discretization;
   const int linear_before = outcome_.at.linear_iterations;
   outcome_.finest = complementarity::newton(discretization.problem(), *outcome_.X, newton, params_.stopping, params_.linear.check_every,
-                                            on_level(), [&](const algebra::Vector& X) { return discretization.estimate(X); });
+                                            on_level(), [this](const algebra::Vector& X) { return look(X); });
   outcome_.at.linear_iterations = linear_before + outcome_.finest.linear_iterations;  // those of a step that failed, too
   outcome_.solved = outcome_.finest.converged;
+}
+
+/// The estimate at an iterate, and, for the history, its error.
+complementarity::Estimate LevelSolver::look(const algebra::Vector& X) {
+  const auto estimate = outcome_.discretization->estimate(X);
+  const core::Region region("verification");
+  if (params_.output.history) error_at_look_ = outcome_.discretization->energy_error(X);
+  return estimate;
 }
 
 /// Once at the end of a level, unless Newton has done it.
@@ -104,15 +112,15 @@ complementarity::NewtonObserver LevelSolver::on_level() {
     ++at.newton_iterations;
     at.linear_iterations += record.linear_iterations;
     if (observer_.step)
-      observer_.step(
-          {at.level, record.step, record.linear_iterations, record.active, record.changed, record.residual, std::nullopt, record.estimate},
-          record);
+      observer_.step({at.level, record.step, record.linear_iterations, record.active, record.changed, record.residual,
+                      record.estimate ? error_at_look_ : std::nullopt, record.estimate},
+                     record);
   };
   if (observer_.iterate) newton.iterate = [&at, this](const algebra::Vector& X) { observer_.iterate(at, *outcome_.discretization, X); };
   if (observer_.check)
     newton.linear = [before, &at, this](const complementarity::LinearRecord& record) {
-      observer_.check(
-          {at.level, before + record.step, record.iteration, std::nullopt, std::nullopt, record.residual, std::nullopt, record.estimate});
+      observer_.check({at.level, before + record.step, record.iteration, std::nullopt, std::nullopt, record.residual,
+                       record.estimate ? error_at_look_ : std::nullopt, record.estimate});
     };
   return newton;
 }

@@ -29,6 +29,7 @@ class LevelSolver {
   void set_mesh(int level);
   void estimate();
   complementarity::NewtonObserver on_level();
+  complementarity::Estimate look(const algebra::Vector& X);
 
   const models::StationaryModel& model_;
   const mesh::Hierarchy& hierarchy_;
@@ -36,6 +37,7 @@ class LevelSolver {
   const Observer& observer_;
   const output::StoredCheckpoint* stored_;
   Outcome outcome_;
+  std::optional<double> error_at_look_;  ///< energy error where the estimate was asked for last
 
   /// A solution without its discretization.
   struct Kept {

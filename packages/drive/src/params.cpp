@@ -1,5 +1,7 @@
 #include "thixis/drive/params.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <sstream>
 
@@ -12,15 +14,34 @@ std::string trimmed(const std::string& text) {
 }
 
 /// A pair of bounds is two numbers in order.
+constexpr const char* pair_rule = "must hold the smallest and the largest value allowed, e.g. {1.0, 1.2}.";
+bool in_order(const std::vector<double>& pair) { return pair.size() == 2 && pair[0] <= pair[1]; }
+
 void check_pair(const std::optional<std::vector<double>>& pair, const std::string& name, core::Problems& problems) {
-  if (pair && (pair->size() != 2 || (*pair)[0] > (*pair)[1]))
-    problems.add(name, "must hold the smallest and the largest value allowed, e.g. {1.0, 1.2}.");
+  if (pair && !in_order(*pair)) problems.add(name, pair_rule);
 }
 
 core::Range above_0_up_to_1() {
   core::Range range = core::between(0, 1);
   range.lower_open = true;
   return range;
+}
+
+/// A run has an end that it can reach, and steps that move the time.
+void check_steps(const TimeParams& params, core::Problems& problems) {
+  const double least = params.adaptive ? params.largest.value_or(params.end) : params.step;
+  if (params.end / least > TimeParams::most_steps)
+    problems.add(params.adaptive ? "largest" : "step",
+                 fmt::format("makes {:.3g} steps until the end at {:g}, and a run may have {:g}; write at least {:.3g}.",
+                             params.end / least, params.end, TimeParams::most_steps, params.end / TimeParams::most_steps));
+  const double resolved = TimeParams::resolution * params.end;
+  const auto require_resolved = [&](const char* name, double length) {
+    if (length < resolved)
+      problems.add(name,
+                   fmt::format("is lost among the digits of the time at the end, {:g}; write at least {:.3g}.", params.end, resolved));
+  };
+  require_resolved("step", params.step);
+  if (params.smallest) require_resolved("smallest", *params.smallest);
 }
 
 bool of_estimate(const std::string& name) { return std::count(names_of_estimate().begin(), names_of_estimate().end(), name) > 0; }
@@ -66,8 +87,11 @@ const core::Schema<OutputParams>& OutputParams::schema() {
                      "0: only where a run ends without convergence or is told to end.")
           .parameter("fields every", &OutputParams::fields_every, core::at_least(1),
                      "Scenes in time: fields are written after so many steps, and at the beginning and the end.")
-          .parameter("probes", &OutputParams::probes,
-                     "Two-phase flow: the points of series.csv, x and y of each one (intervals: x alone); not given: chosen by the scene.")
+          .parameter(
+              "probes", &OutputParams::probes,
+              "Points, x and y of each one (intervals: x alone), whose values are written: in time to series.csv after every step, the "
+              "fields of the second point with _2 behind their names; of stationary scenes to probes.csv at the end. Not given: none; "
+              "two-phase flow: the cell at the left end.")
           .check([](const OutputParams& params, core::Problems& problems) {
             if (trimmed(params.fields).empty()) problems.add("fields", "must be all, none, or names separated by commas.");
           });
@@ -88,10 +112,12 @@ const core::Schema<TimeParams>& TimeParams::schema() {
           .parameter("adaptive", &TimeParams::adaptive, "Whether the time part of the error estimate controls the length of the steps.")
           .parameter("also", &TimeParams::also, "Further times at which a step ends, e.g. where data jump.")
           .parameter("smallest", &TimeParams::smallest, core::above(0),
-                     "A step that fails is cut; one below this length ends the run. Not given: 'step' / 2^20.")
-          .parameter("largest", &TimeParams::largest, core::above(0), "Longest step of adaptive = true; not given: the whole time.")
+                     "A step that fails is cut; one below this length ends the run. Not given: 'step' / 2^20, or 1e-13 of the end if that "
+                     "is more.")
+          .parameter("largest", &TimeParams::largest, core::above(0), "Longest step; not given: the whole time.")
           .parameter("growth", &TimeParams::growth, core::above(1), "The next step is at most so many times longer.")
           .check([](const TimeParams& params, core::Problems& problems) {
+            check_steps(params, problems);
             if (params.smallest && *params.smallest > params.step) problems.add("smallest", "must not be above 'step'.");
             if (params.smallest && params.largest && *params.smallest > *params.largest)
               problems.add("largest", "must not be below 'smallest'.");
@@ -104,7 +130,7 @@ const core::Schema<TimeParams>& TimeParams::schema() {
 const core::Schema<AdaptParams>& AdaptParams::schema() {
   static const auto schema =
       core::Schema<AdaptParams>("adapt",
-                                "How the mesh is refined until the error is guaranteed to be at most stopping/target; without a target, "
+                                "How the mesh is refined until the bound on the error is at most stopping/target; without a target, "
                                 "as far as the limits allow.")
           .choice("marking", &AdaptParams::marking, {{"dorfler", Marking::dorfler}, {"uniform", Marking::uniform}},
                   "The fewest cells with a given share of the squared discretization error, or all cells.")
@@ -116,7 +142,25 @@ const core::Schema<AdaptParams>& AdaptParams::schema() {
   return schema;
 }
 
+const core::Schema<ExpectAtParams>& ExpectAtParams::schema() {
+  static const auto schema =
+      core::Schema<ExpectAtParams>("at", "Values of fields at points, at the end: a sublist for each one, with a name of your own.")
+          .parameter("place", &ExpectAtParams::place, core::entries(1, 2), "The point: {x,y}, on an interval {x}.")
+          .required()
+          .parameter("field", &ExpectAtParams::field,
+                     "u1, u2, lambda or gap; model obstacle: u, lambda, gap; two-phase: s_g, p_l, p_g, chi. In a cell of the lowest number "
+                     "where the point lies on several.")
+          .required()
+          .parameter("between", &ExpectAtParams::between, core::entries(2), "Smallest and largest value.")
+          .required()
+          .check([](const ExpectAtParams& params, core::Problems& problems) {
+            if (problems.given("between") && !in_order(params.between)) problems.add("between", pair_rule);
+          });
+  return schema;
+}
+
 const core::Schema<ExpectParams>& ExpectParams::schema() {
+  using complementarity::Promise;
   static const auto schema =
       core::Schema<ExpectParams>("expect", "What must hold of the result; if it does not, the run ends with exit code 4.")
           .parameter("energy error at most", &ExpectParams::energy_error_at_most, core::above(0), "Bound on the true energy error.")
@@ -127,7 +171,13 @@ const core::Schema<ExpectParams>& ExpectParams::schema() {
           .parameter("linear iterations at most", &ExpectParams::linear_iterations_at_most, core::at_least(0), "Krylov iterations in all.")
           .parameter("kkt at most", &ExpectParams::kkt_at_most, core::above(0), "Largest violation of the contact conditions, relative.")
           .parameter("effectivity between", &ExpectParams::effectivity_between, "Smallest and largest ratio of bound and true error.")
-          .parameter("bound at most", &ExpectParams::bound_at_most, core::above(0), "Largest guaranteed bound on the energy error.")
+          .parameter("bound at most", &ExpectParams::bound_at_most, core::above(0),
+                     "Largest bound on the energy error, whatever it promises.")
+          .choice("promise", &ExpectParams::promise,
+                  {{to_text(Promise::guaranteed), Promise::guaranteed},
+                   {to_text(Promise::up_to_quadrature), Promise::up_to_quadrature},
+                   {to_text(Promise::indicator), Promise::indicator}},
+                  "What the estimate must promise at least.")
           .parameter("unknowns", &ExpectParams::unknowns, core::at_least(0), "Number of unknowns, the multiplier included.")
           .parameter("cells", &ExpectParams::cells, core::at_least(0), "Number of cells.")
           .parameter("steps at most", &ExpectParams::steps_at_most, core::at_least(1), "Time steps.")
@@ -137,10 +187,22 @@ const core::Schema<ExpectParams>& ExpectParams::schema() {
           .parameter("hydrogen balance at most", &ExpectParams::hydrogen_balance_at_most, core::above(0),
                      "Largest defect of a step in the mass of hydrogen, relative to what was injected.")
           .parameter("front between", &ExpectParams::front_between, "Smallest and largest position of the gas front at the end.")
+          .parameter("energy norm between", &ExpectParams::energy_norm_between, "Smallest and largest energy norm of the solution.")
+          .parameter(
+              "contact area between", &ExpectParams::contact_area_between,
+              "Smallest and largest area of the contact zone, at the end: the integrals of the basis functions of the points in contact "
+              "that are not held.")
+          .parameter(
+              "force between", &ExpectParams::force_between,
+              "Smallest and largest integral of the contact force, at the end; what held points carry counts as force of the boundary.")
+          .blocks("at", &ExpectParams::at, ExpectAtParams::schema())
           .check([](const ExpectParams& params, core::Problems& problems) {
             check_pair(params.energy_error_between, "energy error between", problems);
             check_pair(params.effectivity_between, "effectivity between", problems);
             check_pair(params.front_between, "front between", problems);
+            check_pair(params.energy_norm_between, "energy norm between", problems);
+            check_pair(params.contact_area_between, "contact area between", problems);
+            check_pair(params.force_between, "force between", problems);
           });
   return schema;
 }

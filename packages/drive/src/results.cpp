@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Kokkos_Core.hpp>
+#include <filesystem>
 
 #include "thixis/core/log.hpp"
 #include "thixis/core/memory.hpp"
@@ -21,11 +22,22 @@ output::FieldData on_cells(const std::string& name, const std::vector<double>& v
   return field;
 }
 
+/// The way from `folder` to a file that is given relative to `start`.
+std::string from_folder(const std::string& folder, const std::string& start, const std::string& file) {
+  namespace fs = std::filesystem;
+  if (file.empty() || fs::path(file).is_absolute()) return file;
+  std::error_code error;
+  const fs::path way = fs::proximate(fs::path(start) / file, folder, error);
+  return error ? fs::absolute(fs::path(start) / file).string() : way.string();
+}
+
 }  // namespace
 
-void open(const output::RunDirectory& directory, const RunParams& params, bool goes_on, const core::Comm& comm) {
+void open(output::RunDirectory& directory, const RunParams& params, const core::Deck& deck, bool goes_on, const core::Comm& comm) {
   directory.create(comm);
-  directory.write_deck(core::to_xml(RunParams::schema(), params), comm);
+  RunParams as_run = params;
+  as_run.mesh.file = from_folder(directory.path(), deck.folder(), params.mesh.file);
+  directory.write_deck(as_run.as_deck(), comm);
   comm.on_root([&] { log::open(directory.log(), goes_on ? log::Old::keep : log::Old::overwrite); });
 }
 
@@ -37,7 +49,7 @@ void introduce(const core::Deck& deck, const models::Model& model, const core::C
   log::info("{}", text);
 }
 
-std::string estimate_header() { return fmt::format("{:>12}{:>12}{:>12}{:>12}", "eta_disc", "eta_lin", "eta_alg", "bound"); }
+std::string estimate_header() { return fmt::format("{:>12}{:>12}{:>12}{:>12}", "eta_disc", "eta_lin", "eta_alg", "eta"); }
 
 std::string estimate_columns(const std::optional<complementarity::Estimate>& eta) {
   if (!eta) return "";
@@ -50,6 +62,8 @@ void set_estimate(output::HistoryRow& row, const std::optional<complementarity::
   row.eta_lin = eta->linearization;
   row.eta_alg = eta->algebraic;
   row.eta_total = eta->total;
+  row.eta_time = eta->time;
+  row.promise = to_text(eta->promise);
 }
 
 void add_estimates(const OutputParams& params, const models::CellEstimates& cells, const output::Grid& grid,
@@ -62,8 +76,16 @@ void add_estimates(const OutputParams& params, const models::CellEstimates& cell
                               grid.cells()));
 }
 
-output::SummaryEstimate parts(const complementarity::Estimate& eta) {
-  return {eta.total, eta.discretization, eta.linearization, eta.algebraic, {}};
+output::SummaryEstimate parts(const complementarity::Estimate& eta, const std::vector<std::string>& doubts) {
+  const bool open = eta.promise == complementarity::Promise::up_to_quadrature;
+  return {
+      eta.total, eta.discretization, eta.linearization, eta.algebraic, to_text(eta.promise), open ? doubts : std::vector<std::string>(), {},
+      eta.time};
+}
+
+void say_doubts(const std::optional<complementarity::Estimate>& eta, const std::vector<std::string>& doubts) {
+  if (!eta || eta->promise != complementarity::Promise::up_to_quadrature || doubts.empty()) return;
+  log::info("the bound is {}: {}", to_text(eta->promise), fmt::join(doubts, "; "));
 }
 
 output::Summary begin_summary(const RunParams& params, const models::Model& model, const Verdict& verdict, const core::Comm& comm,

@@ -19,12 +19,13 @@ namespace thixis::drive {
 
 using Versions = std::vector<std::pair<std::string, std::string>>;
 
-/// Makes the output directory and begins its log. `goes_on`: behind the files of the interrupted run.
-void open(const output::RunDirectory& directory, const RunParams& params, bool goes_on, const core::Comm& comm);
+/// Makes the output directory, writes the deck as run, which can be run again from there, and begins the log. `goes_on`: behind the files
+/// of the interrupted run.
+void open(output::RunDirectory& directory, const RunParams& params, const core::Deck& deck, bool goes_on, const core::Comm& comm);
 /// Says what is run.
 void introduce(const core::Deck& deck, const models::Model& model, const core::Comm& comm, const Versions& versions);
 
-/// The columns of the log's tables: eta_disc, eta_lin, eta_alg, bound; spaces where there is no estimate.
+/// The columns of the log's tables: eta_disc, eta_lin, eta_alg, eta; spaces where there is no estimate.
 std::string estimate_header();
 std::string estimate_columns(const std::optional<complementarity::Estimate>& eta);
 void set_estimate(output::HistoryRow& row, const std::optional<complementarity::Estimate>& eta);
@@ -33,7 +34,10 @@ void set_estimate(output::HistoryRow& row, const std::optional<complementarity::
 void add_estimates(const OutputParams& params, const models::CellEstimates& cells, const output::Grid& grid,
                    std::vector<output::FieldData>& fields);
 
-output::SummaryEstimate parts(const complementarity::Estimate& eta);
+/// `doubts`: what keeps it from being guaranteed.
+output::SummaryEstimate parts(const complementarity::Estimate& eta, const std::vector<std::string>& doubts = {});
+/// Says them.
+void say_doubts(const std::optional<complementarity::Estimate>& eta, const std::vector<std::string>& doubts);
 /// A summary with what does not depend on the kind of the scene: verdict, model, method, ranks, times, memory, versions.
 output::Summary begin_summary(const RunParams& params, const models::Model& model, const Verdict& verdict, const core::Comm& comm,
                               double seconds, const Versions& versions);

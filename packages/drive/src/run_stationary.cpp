@@ -3,12 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "checkpoint.hpp"
 #include "follow.hpp"
+#include "sizes.hpp"
 #include "thixis/algebra/tpetra.hpp"
 #include "thixis/core/log.hpp"
 #include "thixis/core/timer.hpp"
+#include "thixis/drive/run.hpp"
+#include "thixis/output/probes.hpp"
 
 namespace thixis::drive {
 namespace {
@@ -25,9 +29,9 @@ void say_where(const output::StoredCheckpoint& stored) {
 /// How to go on, as a command: with more steps where those were too few.
 std::string invitation(const std::string& checkpoint, const RunParams& params, const Outcome& outcome) {
   const int most = params.newton.max_iterations;
-  const bool too_few = !outcome.solved && outcome.finest.steps >= most;
+  const bool too_few = !outcome.solved && outcome.finest.steps >= most && most <= std::numeric_limits<int>::max() / 2;
   return fmt::format("the last iterate is kept; to go on from it: thixis restart {}{}", checkpoint,
-                     too_few ? fmt::format(" --set \"newton/max iterations={}\"", std::max(50, 2 * most)) : "");
+                     too_few ? fmt::format(" --set \"newton/max iterations={}\"", std::max(50LL, 2LL * most)) : "");
 }
 
 output::Summary summarize(const RunParams& params, const models::Model& model, const Outcome& outcome, const Verdict& verdict,
@@ -42,7 +46,7 @@ output::Summary summarize(const RunParams& params, const models::Model& model, c
   summary.newton_finest = outcome.at.newton_on_level;
   summary.linear_iterations = outcome.at.linear_iterations;
   summary.energy_error = outcome.energy_error;
-  if (outcome.estimate) summary.estimate = parts(*outcome.estimate);
+  if (outcome.estimate) summary.estimate = parts(*outcome.estimate, outcome.discretization->doubts());
   summary.effectivity = outcome.effectivity();
   if (outcome.published) {
     summary.estimate_published = parts(outcome.published->parts);
@@ -70,6 +74,14 @@ void write_fields(const output::RunDirectory& directory, const OutputParams& par
   writer.close();
 }
 
+void write_probes(const output::RunDirectory& directory, const models::Model& model, const std::vector<models::Probe>& probes,
+                  const Outcome& outcome, const core::Comm& comm) {
+  const core::Region region("output");
+  std::vector<std::array<double, 2>> points;
+  for (const auto& probe : probes) points.push_back(probe.at);
+  output::write_probes(directory.probes(), points, model.point_fields(), outcome.discretization->values_at(probes, *outcome.X), comm);
+}
+
 }  // namespace
 
 core::ExitCode run_stationary(const RunParams& params, const models::StationaryModel& model, const core::Deck& deck, const core::Comm& comm,
@@ -80,21 +92,28 @@ core::ExitCode run_stationary(const RunParams& params, const models::StationaryM
     const core::Region region("mesh");
     hierarchy = mesh::build(params.mesh, comm, deck.folder());
   }
+  require_memory(params, static_cast<double>(hierarchy.finest().global_cells), comm);
   // what is wrong in the scene on this mesh shows here, before anything is written
   const bool nested = params.newton.start == complementarity::Start::nested;
-  for (const auto& mesh : hierarchy.levels)
-    if (nested || &mesh == &hierarchy.finest()) model.check(mesh, params.output.model_names());
+  const models::Wanted asked = wanted(params);
+  for (const auto& mesh : hierarchy.levels) {
+    if (&mesh == &hierarchy.finest()) model.check(mesh, asked);
+    else if (nested) model.check(mesh, {asked.fields, {}, {}});
+  }
 
-  const output::RunDirectory directory(params.output.directory);
+  output::RunDirectory directory(params.output.directory);
   CheckpointFile checkpoint(directory.checkpoint(), params, deck, hierarchy);
   if (stored) {
     replay(*stored, hierarchy, checkpoint);
     check_restart(*stored, params, hierarchy);
   }
   const bool goes_on = stored && same_directory(*stored, directory.path());
-  open(directory, params, goes_on, comm);
+  open(directory, params, deck, goes_on, comm);
   introduce(deck, model, comm, versions);
-  if (stored) say_where(*stored);
+  if (stored) {
+    say_where(*stored);
+    say_differences(*stored, params);
+  }
   if (!goes_on) remove_file(checkpoint.path(), comm);
 
   output::History history =
@@ -106,8 +125,10 @@ core::ExitCode run_stationary(const RunParams& params, const models::StationaryM
   const bool kept = to_be_kept && follow.save(outcome.at, *outcome.discretization, *outcome.X);
 
   if (!outcome.not_wanted && !params.output.no_fields()) write_fields(directory, params.output, outcome, comm);
+  if (!outcome.not_wanted && !asked.probes.empty()) write_probes(directory, model, asked.probes, outcome, comm);
   const auto summary = summarize(params, model, outcome, verdict, comm, clock.seconds(), versions);
   summary.write(directory.summary(), comm);
+  say_doubts(outcome.estimate, outcome.discretization->doubts());
   const bool invite = kept && verdict.code == ExitCode::not_converged;
   return conclude(directory, verdict, invite ? invitation(checkpoint.path(), params, outcome) : "", comm, clock.seconds());
 }

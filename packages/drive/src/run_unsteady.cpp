@@ -8,8 +8,10 @@
 #include "expectations.hpp"
 #include "follow_evolution.hpp"
 #include "interrupt.hpp"
+#include "step_control.hpp"
 #include "thixis/algebra/tpetra.hpp"
 #include "thixis/core/timer.hpp"
+#include "thixis/drive/run.hpp"
 
 namespace thixis::drive {
 namespace {
@@ -28,13 +30,16 @@ std::optional<double> effectivity(const models::Evolution& evolution) {
   return bound->total / *error;
 }
 
-Found found(const models::Evolution& evolution, const EvolutionOutcome& outcome) {
+Found found(const RunParams& params, const models::Model& model, const models::Evolution& evolution, const EvolutionOutcome& outcome) {
   Found found;
   found.solved = !outcome.not_wanted;
   if (found.solved) {
     found.energy_error = evolution.energy_error();
     if (outcome.kkt) found.kkt = outcome.kkt->worst();
-    if (const auto bound = evolution.estimate_so_far()) found.bound = bound->total;
+    if (const auto bound = evolution.estimate_so_far()) {
+      found.bound = bound->total;
+      found.promise = bound->promise;
+    }
     found.effectivity = effectivity(evolution);
     found.newton_iterations = outcome.at.newton_iterations;
     found.newton_finest = outcome.last.steps;
@@ -44,17 +49,27 @@ Found found(const models::Evolution& evolution, const EvolutionOutcome& outcome)
     for (const models::Balance& balance : evolution.balances())
       (balance.name == "water" ? found.water_balance : found.hydrogen_balance) = balance.worst_step;
     found.front = evolution.front(*outcome.X);
+    found.contact = evolution.contact(*outcome.X);
+    if (!params.expect.at.empty())
+      found.at = values_by_name(params.expect, model.point_fields(), evolution.values_at(wanted(params).expected, *outcome.X));
   }
   found.unknowns = evolution.sizes().unknowns_all;
   found.cells = evolution.cells();
   return found;
 }
 
+/// Where most of a bound comes from the lengths of the steps, it says nothing of the mesh.
+std::string time_decides(const complementarity::Estimate& bound) {
+  if (!(bound.time.value_or(0) > 0.7 * bound.total)) return "";
+  return fmt::format(", most of it the error in time, {:.4e}: shorter steps (time/step) make it smaller, a finer mesh does not",
+                     *bound.time);
+}
+
 /// What is known of the error and of the solution, in clauses.
 std::string qualities(const RunParams& params, const models::Evolution& evolution, const EvolutionOutcome& outcome) {
   std::string clauses;
   if (const auto error = evolution.energy_error()) clauses += fmt::format("; energy error {:.4e}", *error);
-  if (const auto bound = evolution.estimate_so_far()) clauses += fmt::format("; {} {:.4e}", evolution.bound_name(), bound->total);
+  if (const auto bound = evolution.estimate_so_far()) clauses += "; " + bound_clause(evolution.bound_name(), *bound) + time_decides(*bound);
   for (const models::Balance& balance : evolution.balances())
     clauses += fmt::format("; {} balanced to {:.1e} in every step", balance.name, balance.worst_step);
   if (outcome.kkt) {
@@ -71,8 +86,9 @@ std::string effort(const TimePosition& at) {
          (at.retries > 0 ? fmt::format(" ({} attempt{} given up)", at.retries, at.retries == 1 ? "" : "s") : "");
 }
 
-Verdict judge(const RunParams& params, const models::Evolution& evolution, const EvolutionOutcome& outcome) {
-  const std::string clauses = fmt::format("{}", fmt::join(missed(params.expect, found(evolution, outcome)), "; "));
+Verdict judge(const RunParams& params, const models::Model& model, const models::Evolution& evolution, const core::Deck& deck,
+              const EvolutionOutcome& outcome) {
+  const std::string clauses = fmt::format("{}", fmt::join(missed(params.expect, found(params, model, evolution, outcome)), "; "));
   if (outcome.not_wanted) {
     if (!clauses.empty()) return {ExitCode::target_missed, "not solved (max iterations = 0), and not as expected: " + clauses + "."};
     return {ExitCode::done, "not solved: max iterations = 0 only counts the unknowns."};
@@ -80,17 +96,23 @@ Verdict judge(const RunParams& params, const models::Evolution& evolution, const
   if (!outcome.stopped.empty())
     return {ExitCode::interrupted,
             fmt::format("{} at time {:.6g} of {:.6g}, after {}.", outcome.stopped, outcome.at.time, params.time->end, effort(outcome.at))};
-  if (!outcome.solved)
-    return {ExitCode::not_converged, "not converged: " + outcome.why + (outcome.last.advice.empty() ? "" : " " + outcome.last.advice)};
+  if (!outcome.mistake.empty())
+    return {ExitCode::input, fmt::format("solved up to time {:.6g} of {:.6g}, in {}; then: {}", outcome.at.time, params.time->end,
+                                         effort(outcome.at), deck.located(core::InputError(outcome.mistake)).what())};
+  if (!outcome.solved) return {ExitCode::not_converged, "not converged: " + outcome.why};
   if (params.stopping.rule != complementarity::StoppingRule::adaptive && outcome.kkt && !outcome.kkt->holds(outcome.kkt_tolerance))
     return {ExitCode::not_converged, not_in_contact(outcome.last, *outcome.kkt, outcome.kkt_tolerance)};
   const auto bound = evolution.estimate_so_far();
   if (params.stopping.target && bound && bound->total > *params.stopping.target)
-    return {ExitCode::target_missed,
-            fmt::format("target missed: {} {:.4e}, not {:g}{}{}{}.", evolution.bound_name(), bound->total, *params.stopping.target,
-                        outcome.refinement_limited ? "; adapt/max levels or adapt/max unknowns kept the mesh from becoming finer" : "",
-                        outcome.steps_too_long ? "; most of it is the error in time: take shorter steps (time/step)" : "",
-                        clauses.empty() ? "" : "; besides, not as expected: " + clauses)};
+    return {
+        ExitCode::target_missed,
+        fmt::format(
+            "target missed: {}, not {:g}{}{}{}.", bound_clause(evolution.bound_name(), *bound), *params.stopping.target,
+            outcome.refinement_limited
+                ? "; adapt/max levels or adapt/max unknowns kept the mesh from becoming finer: allow more, or take a higher method/degree"
+                : "",
+            outcome.steps_too_long ? "; most of it is the error in time: take shorter steps (time/step)" : "",
+            clauses.empty() ? "" : "; besides, not as expected: " + clauses)};
   if (!clauses.empty()) return {ExitCode::target_missed, "solved, but not as expected: " + clauses + "."};
   return {ExitCode::done, fmt::format("solved in {}{}.", effort(outcome.at), qualities(params, evolution, outcome))};
 }
@@ -108,9 +130,9 @@ output::Summary summarize(const RunParams& params, const models::Model& model, c
   summary.newton_finest = outcome.last.steps;
   summary.linear_iterations = outcome.at.linear_iterations;
   summary.energy_error = evolution.energy_error();
-  if (const auto bound = evolution.estimate_so_far()) summary.estimate = parts(*bound);
+  if (const auto bound = evolution.estimate_so_far()) summary.estimate = parts(*bound, evolution.doubts());
   summary.effectivity = effectivity(evolution);
-  summary.active_points = outcome.last.active;
+  summary.active_points = outcome.active.count();
   if (outcome.kkt) {
     const auto& kkt = *outcome.kkt;
     summary.kkt = {kkt.infeasible, kkt.negative, kkt.complementary, kkt.between_nodes, kkt.equilibrium};
@@ -136,7 +158,10 @@ void check_restart(const output::StoredCheckpoint& stored, const StoredEvolution
   evolution.restore(stored);  // throws where scene, mesh or method are others
 }
 
-std::string invitation(const std::string& checkpoint) { return "to go on from the last step: thixis restart " + checkpoint; }
+std::string invitation(const std::string& checkpoint, const EvolutionOutcome& outcome) {
+  return fmt::format("to go on from the last step{}: thixis restart {}{}", outcome.mistake.empty() ? "" : " with other data", checkpoint,
+                     outcome.mistake.empty() ? "" : " --set PATH=VALUE");
+}
 
 }  // namespace
 
@@ -147,16 +172,20 @@ core::ExitCode run_unsteady(const RunParams& params, const models::UnsteadyModel
   std::unique_ptr<models::Evolution> evolution;
   {
     const core::Region region("mesh");
-    evolution = model.evolve(params.mesh, comm, deck.folder(), params.output.model_names());
+    evolution = model.evolve(params.mesh, comm, deck.folder(), wanted(params));
   }
-  const output::RunDirectory directory(params.output.directory);
+  output::RunDirectory directory(params.output.directory);
   const EvolutionCheckpoint checkpoint(directory.checkpoint(), params, deck);
   const bool goes_on = stored && same_directory(*stored, directory.path());
   const StoredEvolution from = stored ? stored_evolution(*stored) : StoredEvolution{};
   if (stored) check_restart(*stored, from, params, goes_on, *evolution);
-  open(directory, params, goes_on, comm);
+  evolution->check(known_times(*params.time, evolution->jumps(), from.at.time));
+  open(directory, params, deck, goes_on, comm);
   introduce(deck, model, comm, versions);
-  if (stored) say_where(from.at);
+  if (stored) {
+    say_where(from.at);
+    say_differences(*stored, params);
+  }
   log::info("{} cells, {} unknowns ({} in the linear system)", evolution->cells(), evolution->sizes().unknowns_all,
             evolution->sizes().unknowns_global);
   if (!goes_on) remove_file(checkpoint.path(), comm);
@@ -174,11 +203,12 @@ core::ExitCode run_unsteady(const RunParams& params, const models::UnsteadyModel
     const bool failed = outcome.stopped.empty() && !outcome.solved;
     if (failed || (outcome.solved && params.output.checkpoint_every > 0))
       follow.save(outcome.at, outcome.next_length, *evolution, *outcome.X);
-    if (!outcome.solved) invite = invitation(checkpoint.path());
+    if (!outcome.solved) invite = invitation(checkpoint.path(), outcome);
     follow.finish(*evolution, outcome);
   }
-  const Verdict verdict = judge(params, *evolution, outcome);
+  const Verdict verdict = judge(params, model, *evolution, deck, outcome);
   summarize(params, model, *evolution, outcome, verdict, clock.seconds(), versions).write(directory.summary(), comm);
+  if (!outcome.not_wanted) say_doubts(evolution->estimate_so_far(), evolution->doubts());
   return conclude(directory, verdict, invite, comm, clock.seconds());
 }
 

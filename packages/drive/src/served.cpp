@@ -32,9 +32,12 @@ void judge_estimate(const RunParams& params, Mistakes& mistakes) {
   steered(stopping.target.has_value(), "stopping/target", "a target");
   steered(params.adapt.has_value(), "adapt", "adaptive refinement");
   steered(params.time && params.time->adaptive, "time/adaptive", "step control");
-  if (stopping.local && stopping.rule != StoppingRule::adaptive)
-    mistakes.push_back("stopping/local: only the rule adaptive looks at single cells; write stopping/rule = adaptive, or leave this out.");
 
+  const auto& expect = params.expect;
+  for (const auto& [name, given] : {std::pair("energy error at most", expect.energy_error_at_most.has_value()),
+                                    std::pair("energy error between", expect.energy_error_between.has_value())})
+    if (given && exact_solution_missing(params))
+      mistakes.push_back(fmt::format("expect/{}: without the exact solution nobody knows the true error; leave this out.", name));
   if (params.estimated()) {
     if (params.expect.effectivity_between && exact_solution_missing(params))
       mistakes.push_back(
@@ -45,6 +48,7 @@ void judge_estimate(const RunParams& params, Mistakes& mistakes) {
   const char* nobody = "nobody estimates the error; write stopping/estimate = true.";
   if (params.expect.effectivity_between) mistakes.push_back(fmt::format("expect/effectivity between: {}", nobody));
   if (params.expect.bound_at_most) mistakes.push_back(fmt::format("expect/bound at most: {}", nobody));
+  if (params.expect.promise) mistakes.push_back(fmt::format("expect/promise: {}", nobody));
   if (params.output.fields == "all") return;
   for (const auto& name : params.output.estimate_names())
     mistakes.push_back(fmt::format("output/fields: there is no '{}', for {}", name, nobody));
@@ -53,34 +57,27 @@ void judge_estimate(const RunParams& params, Mistakes& mistakes) {
 /// The systems of two-phase flow are not symmetric, and have one form.
 void judge_flow(const RunParams& params, Mistakes& mistakes) {
   const algebra::LinearParams& linear = params.linear;
-  if (linear.form != algebra::SystemForm::full)
-    mistakes.push_back("linear/form: the systems of two-phase flow are not reduced; write full, or leave it out.");
   if (linear.solver == algebra::SolverKind::cg)
     mistakes.push_back("linear/solver: the systems of two-phase flow are not symmetric, so cg can not solve them; write gmres or direct.");
   if (linear.solver != algebra::SolverKind::direct && linear.preconditioner == algebra::PreconditionerKind::muelu)
     mistakes.push_back("linear/preconditioner: muelu fails on the systems of two-phase flow; write ilu.");
-  if (params.newton.sweeps.value_or(0) > 0) mistakes.push_back("newton/sweeps: two-phase flow has no smoother; write 0, or leave it out.");
-  if (params.method.condensation.value_or(false))
-    mistakes.push_back("method/condensation: finite volumes have no unknowns to eliminate; write false, or leave it out.");
 }
 
 void judge_method(const RunParams& params, Mistakes& mistakes) {
   if (params.scene.model == scene::Model::two_phase) return judge_flow(params, mistakes);
   const method::MethodParams& method = params.method;
-  const bool fem = method.name == method::MethodName::fem, dg = method.name == method::MethodName::dg;
-  const bool interior = method.name == method::MethodName::hho || (fem && method.degree >= 3);
-  if (method.condensation.value_or(false) && !interior)
+  const int order = method.quadrature_order, least = 2 * method.degree;
+  if (order > 0 && order < least)
     mistakes.push_back(
-        fmt::format("method/condensation: {} of degree {} has no unknowns that belong to one cell alone; write false or leave it out.",
-                    method::to_text(method.name), method.degree));
-  if (params.newton.sweeps.value_or(0) > 0 && !method.symmetric())
-    mistakes.push_back("newton/sweeps: smoothing needs a symmetric form, which nipg is not; write 0, or method/variant = sipg.");
+        fmt::format("method/quadrature order: forms of degree {} are integrated with {} at least; write that or more, or leave it out.",
+                    method.degree, least));
 
+  const bool interior = method.name == method::MethodName::hho || (method.name == method::MethodName::fem && method.degree >= 3);
   const algebra::LinearParams& linear = params.linear;
   const bool cg = linear.solver == algebra::SolverKind::cg;
   const bool muelu = linear.solver != algebra::SolverKind::direct && linear.preconditioner == algebra::PreconditionerKind::muelu;
   const bool full = linear.form == algebra::SystemForm::full && !(method.condensed() && interior);
-  const bool nipg = dg && method.variant == method::Variant::nipg;
+  const bool nipg = method.name == method::MethodName::dg && method.variant == method::Variant::nipg;
   if (cg && full)
     mistakes.push_back("linear/form: the full system is not symmetric, so cg can not solve it: write 'reduced', or the solver 'gmres'.");
   if (muelu && full) mistakes.push_back("linear/form: muelu fails on the full system: write 'reduced', or the preconditioner 'ilu'.");
@@ -96,25 +93,15 @@ bool in_time(scene::Model model) { return model == scene::Model::parabolic_membr
 
 void judge_time(const RunParams& params, Mistakes& mistakes) {
   if (!in_time(params.scene.model)) {
-    if (params.time)
-      mistakes.push_back("time: the scene is stationary; drop this block, or write scene/model = parabolic membranes or two-phase.");
     return;
   }
   if (!params.time) mistakes.push_back("time: the scene is one in time; give this block with 'step' and 'end'.");
-  if (params.newton.start == complementarity::Start::nested)
-    mistakes.push_back("newton/start: each step of time starts from the state before; write cold, or leave it out.");
-  const auto& initial = params.newton.initial;
-  if (initial.u || initial.u1 || initial.u2 || initial.lambda)
-    mistakes.push_back("newton/initial: each step of time starts from the state before; give initial data in the block 'scene'.");
   if (params.adapt && !params.stopping.target)
     mistakes.push_back("adapt: in time the mesh is refined where the target asks for it; give stopping/target as well.");
   if (params.scene.model == scene::Model::parabolic_membranes && params.method.name == method::MethodName::dg && params.estimated())
     mistakes.push_back(
         "method/name: in time the error of dg is not bounded; write fem or hho, or leave out what needs an estimate (stopping/rule, "
         "estimate, target, time/adaptive).");
-  if (params.scene.model == scene::Model::two_phase && params.adaptive())
-    mistakes.push_back(
-        "stopping/target: the meshes of two-phase flow are not refined in time; leave out the target and the block 'adapt'.");
 }
 
 }  // namespace
@@ -125,6 +112,9 @@ void check_served(const RunParams& params) {
     mistakes.push_back(fmt::format("mesh/{}: {}", found->parameter, found->sentence));
   judge_estimate(params, mistakes);
   judge_method(params, mistakes);
+  if (params.linear.solver == algebra::SolverKind::direct && params.stopping.rule == complementarity::StoppingRule::inexact)
+    mistakes.push_back(
+        "stopping/rule: a direct solver solves every system to the end; write exact or adaptive, or linear/solver = gmres or cg.");
   judge_time(params, mistakes);
   if (!mistakes.empty()) throw core::InputError(fmt::format("{}", fmt::join(mistakes, "\n")));
 }

@@ -3,14 +3,16 @@
 #include <cmath>
 
 #include "adaptive.hpp"
+#include "expectations.hpp"
 #include "thixis/algebra/tpetra.hpp"
 #include "thixis/core/timer.hpp"
+#include "thixis/drive/run.hpp"
 
 namespace thixis::drive {
 namespace {
 
 /// What is known about the solution beside the solver's own words.
-void verify(Outcome& outcome, const RunParams& params) {
+void verify(Outcome& outcome, const RunParams& params, const models::Model& model) {
   models::Discretization& discretization = *outcome.discretization;
   if (outcome.estimate) outcome.cell_estimates = discretization.cell_estimates();
   if (outcome.estimate && params.stopping.estimate.value_or(false)) {
@@ -26,6 +28,9 @@ void verify(Outcome& outcome, const RunParams& params) {
   outcome.kkt_tolerance = params.stopping.kkt_tolerance.value_or(kkt_data.allowed(residual));
   if (!params.estimated()) outcome.energy_error = discretization.energy_error(*outcome.X);
   outcome.energy_norm = discretization.energy_norm(*outcome.X);
+  outcome.contact = discretization.contact(*outcome.X);
+  if (!params.expect.at.empty())
+    outcome.at_points = values_by_name(params.expect, model.point_fields(), discretization.values_at(wanted(params).expected, *outcome.X));
 }
 
 }  // namespace
@@ -43,6 +48,7 @@ Outcome solve_stationary(const models::StationaryModel& model, mesh::Hierarchy& 
     auto discretization = solver.discretize(level);
     if (level > solver.first() && !allowed(*discretization, params)) {
       solver.outcome().refinement_ended = too_many_unknowns(params);
+      solver.outcome().to_try = more_unknowns;
       solver.return_to_best();
       break;
     }
@@ -52,7 +58,7 @@ Outcome solve_stationary(const models::StationaryModel& model, mesh::Hierarchy& 
   if (params.adaptive() && solver.outcome().refinement_ended.empty()) solve_adaptively(solver, hierarchy, params, observer);
 
   Outcome outcome = std::move(solver.outcome());
-  if (!outcome.not_wanted) verify(outcome, params);
+  if (!outcome.not_wanted) verify(outcome, params, model);
   return outcome;
 }
 

@@ -9,7 +9,7 @@ namespace {
 
 using core::ExitCode;
 
-std::string bound(const Outcome& outcome) { return fmt::format("energy error at most {:.4e} (guaranteed)", outcome.estimate->total); }
+std::string bound(const Outcome& outcome) { return bound_clause("energy error at most", *outcome.estimate); }
 
 /// "3 Newton steps and 20 Krylov iterations".
 std::string effort(const Position& at) {
@@ -29,11 +29,15 @@ std::string solved(const RunParams& params, const Outcome& outcome) {
 }
 
 std::string target_missed(const RunParams& params, const Outcome& outcome) {
-  return fmt::format("target missed: {}, not {:g}; refinement ended by {}", bound(outcome), *params.stopping.target,
-                     outcome.refinement_ended);
+  return fmt::format("target missed: {}, not {:g}; refinement ended by {}; {}", bound(outcome), *params.stopping.target,
+                     outcome.refinement_ended, outcome.to_try);
 }
 
 }  // namespace
+
+std::string bound_clause(const std::string& name, const complementarity::Estimate& eta) {
+  return fmt::format("{} {:.4e} ({})", name, eta.total, to_text(eta.promise));
+}
 
 std::string not_converged(const complementarity::NewtonReport& newton) {
   return "not converged: " + newton.why + (newton.advice.empty() ? "" : " " + newton.advice);

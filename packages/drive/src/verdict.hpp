@@ -15,6 +15,9 @@ struct Verdict {
 std::string not_converged(const complementarity::NewtonReport& newton);
 std::string not_in_contact(const complementarity::NewtonReport& newton, const complementarity::Kkt& kkt, double tolerance);
 
+/// "energy error at most 1.2345e-02 (guaranteed)": an estimate by its name, with what it promises.
+std::string bound_clause(const std::string& name, const complementarity::Estimate& eta);
+
 /// Did the run do what was asked, in one sentence.
 Verdict judge(const RunParams& params, const Outcome& outcome);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "cut_oscillation.hpp"
+#include "exactness.hpp"
 #include "tables.hpp"
 #include "thixis/algebra/tpetra.hpp"
 #include "thixis/mesh/ancestry.hpp"
@@ -31,7 +32,8 @@ BoundParts::BoundParts(const method::PolynomialSpace& of, const ContactProblem& 
       metric(metrics(mesh, of.cells())) {
   const auto table = [](const std::string& label, LocalIndex rows, int columns) { return CellTable(label, rows, columns); };
   const bool conforming = space.conforming();
-  multiplier = conforming ? patchwise_multiplier(space) : cellwise_multiplier(space);
+  bool proved[2] = {true, true};
+  multiplier = conforming ? patchwise_multiplier(space, feasible->jumps()) : cellwise_multiplier(space);
   if (conforming) {
     patches = std::make_unique<PatchFlux>(mesh, space.cells(), held, q);
     patch_lambda = table("thixis::equilibration::patch_lambda", patch_cells, 3 * n);
@@ -44,8 +46,10 @@ BoundParts::BoundParts(const method::PolynomialSpace& of, const ContactProblem& 
   lambda = table("thixis::equilibration::lambda", owned, n);
   for (int alpha = 0; alpha < problem.count; ++alpha) {
     Membrane& m = membrane[alpha];
-    m.least_tension = least_tension(space, *problem.tension[alpha]);
-    m.stress = make_stress(space, q, *problem.tension[alpha], m.least_tension);
+    const TensionBounds bounds = tension_bounds(space, *problem.tension[alpha]);
+    m.least_tension = bounds.least;
+    proved[alpha] = bounds.proved;
+    m.stress = make_stress(space, q, *problem.tension[alpha], bounds);
     m.w = table("thixis::equilibration::stress", patch_cells, 2 * n);
     m.r_alg = table("thixis::equilibration::r_alg", patch_cells, n);
     m.r_lin = table("thixis::equilibration::r_lin", patch_cells, n);
@@ -66,6 +70,7 @@ BoundParts::BoundParts(const method::PolynomialSpace& of, const ContactProblem& 
   const auto h_host = Kokkos::create_mirror_view(h);
   std::copy(diameter.begin(), diameter.end(), h_host.data());
   Kokkos::deep_copy(h, h_host);
+  doubts = equilibration::doubts(space, problem, q, proved, *feasible);
 }
 
 void BoundParts::set_sources(double time) {
@@ -87,18 +92,19 @@ void BoundParts::represent(const Vector& R, const CellTable& r, bool& has) const
   Kokkos::parallel_for("thixis::equilibration::represent", Kokkos::RangePolicy<>(0, patch_cells), Represent{moments, from_moments, r});
 }
 
-void BoundParts::lift_residual(const Vector& R, const CellTable& r, const CellTable& sigma, bool& has) const {
+double BoundParts::lift_residual(const Vector& R, const CellTable& r, const CellTable& sigma, bool& has) const {
   const bool had = has;
   represent(R, r, has);
-  if (has) lift(r, sigma);
-  else if (had) Kokkos::deep_copy(sigma, 0);
+  if (has) return lift(r, sigma);
+  if (had) Kokkos::deep_copy(sigma, 0);
+  return 0;
 }
 
 void BoundParts::discretization_flux(const Iterate& iterate, int alpha, const ConstCellTable& rate) const {
   const Membrane& m = membrane[alpha];
   if (!patches)
     return space.native_flux(*problem.tension[alpha], *problem.force[alpha], iterate.u[alpha], problem.boundary[alpha], problem.time,
-                             m.sigma_disc);
+                             {multiplier->held_moments(), alpha == 0 ? 1.0 : -1.0}, m.sigma_disc);
   Kokkos::parallel_for(
       "thixis::equilibration::patch_data", Kokkos::RangePolicy<>(0, patch_cells),
       PatchSources{m.data.force, rate, m.r_alg, m.r_lin, patch_lambda, m.w, alpha == 0 ? 1.0 : -1.0, times, patch_density, patch_target});
@@ -169,6 +175,15 @@ void BoundParts::contact_at_points(const Vector& above, const Vector& gap) {
 void BoundParts::compare_multipliers(const Vector& above) {
   if (patches) return;
   represent(above, positive, has_positive);
+  if (const auto more = multiplier->held_moments(); has_positive && more.extent(0) > 0) {
+    const auto all = moments;
+    const Kokkos::RangePolicy<> cells_of_patches(0, patch_cells);
+    Kokkos::parallel_for(
+        "thixis::equilibration::held_moments", cells_of_patches, KOKKOS_LAMBDA(int k) {
+          for (int l = 0; l < all.extent_int(1); ++l) all(k, l) += more(k, l);
+        });
+    Kokkos::parallel_for("thixis::equilibration::represent", cells_of_patches, Represent{moments, from_moments, positive});
+  }
   if (!has_positive) return Kokkos::deep_copy(multiplier_rest, 0);
   const ConstCellTable exact = positive, ours = lambda;
   const auto det = metric;

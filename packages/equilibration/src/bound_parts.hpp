@@ -46,6 +46,8 @@ struct BoundParts {
   bool has_positive = false;
   FeasiblePair::Parts parts;
   GuaranteedBound::CellParts cells;
+  std::vector<std::string> doubts;  ///< what keeps the bound from being guaranteed, but for time
+  bool gap_at_points = false;       ///< FeasiblePair::Parts::at_points of the last iterate, on any rank
 
   BoundParts(const method::PolynomialSpace& of, const ContactProblem& contact, const mesh::Hierarchy& hierarchy, int level);
 
@@ -57,8 +59,8 @@ struct BoundParts {
 
   /// R as a polynomial in every patch cell. `has`: whether r is not 0, in and out.
   void represent(const algebra::Vector& R, const CellTable& r, bool& has) const;
-  /// The residual, its representative and its lift.
-  void lift_residual(const algebra::Vector& R, const CellTable& r, const CellTable& sigma, bool& has) const;
+  /// The residual, its representative and its lift; returns what the lift leaves (MultilevelFlux).
+  double lift_residual(const algebra::Vector& R, const CellTable& r, const CellTable& sigma, bool& has) const;
   /// `rate`: a polynomial source to be taken from the force, densities on the patch cells; of length 0: none.
   void discretization_flux(const Iterate& iterate, int alpha, const ConstCellTable& rate) const;
   /// The fluxes of a membrane.

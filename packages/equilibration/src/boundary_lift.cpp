@@ -125,6 +125,20 @@ class Pieces {
   std::vector<double> trace_[3], legendre_;
 };
 
+/// Of |s (1 - s) q(s)| on the face, and of |lambda_j lambda_k q(lambda_k + lambda_i/2)| in the cell, for lambda_j lambda_k <= s (1 - s)
+/// there: a polynomial of degree n is at most 1/cos(n pi/(2m)) times its largest value at the m > n zeros of a Chebyshev polynomial
+/// (Ehlich, Zeller, Math. Z. 86, 1964, doi:10.1007/BF01111276).
+double largest_on_face(const LiftInCell::Series& q) {
+  constexpr int degree = LiftInCell::resolution + 2, zeros = 4 * degree;
+  const double pi = std::acos(-1.0);
+  double most = 0;
+  for (int m = 0; m < zeros; ++m) {
+    const double s = 0.5 + 0.5 * std::cos((m + 0.5) * pi / zeros);
+    most = std::max(most, std::abs(s * (1 - s) * series(q, s)[0]));
+  }
+  return most / std::cos(pi * degree / (2 * zeros));
+}
+
 /// The largest of some values of a tension at points, all of them if it varies.
 double largest_tension(const scene::Field& tension, const std::vector<double>& x, const std::vector<double>& y) {
   if (const double* constant = tension.constant()) return *constant;
@@ -187,7 +201,7 @@ void BoundaryLift::find_faces(const ContinuousNodes& nodes, const std::array<sce
 
   const Pieces pieces(space_.basis());
   double largest = 0, size = 0;
-  std::vector<double> x(points), y(points), g(points), difference(points), fine_x(Pieces::count + 1), fine_y(fine_x), rho(fine_x), u(n);
+  std::vector<double> x(points), y(points), g(points), fine_x(Pieces::count + 1), fine_y(fine_x), rho(fine_x), u(n);
   std::map<LocalIndex, double> left;  // of owned cells: sum over their faces of |||E|||
   for (std::size_t k = 0; k < cells.extent(0); ++k)
     for (int i = 0; i < 3; ++i) {
@@ -200,7 +214,7 @@ void BoundaryLift::find_faces(const ContinuousNodes& nodes, const std::array<sce
         y[q] = (1 - s) * host_.coordinates(a, 1) + s * host_.coordinates(b, 1);
       }
       if (boundary_.empty() || boundary_.back().position != static_cast<LocalIndex>(k))
-        boundary_.push_back({static_cast<LocalIndex>(k), {}, 0});
+        boundary_.push_back({static_cast<LocalIndex>(k), {}});
       OnBoundary& cell = boundary_.back();
       const LocalIndex c = host_.cell_vertices(cells(k), i);
       const double corners[3][2] = {{host_.coordinates(a, 0), host_.coordinates(a, 1)},
@@ -210,7 +224,6 @@ void BoundaryLift::find_faces(const ContinuousNodes& nodes, const std::array<sce
         fine_x[m] = (1 - Pieces::s(m)) * corners[0][0] + Pieces::s(m) * corners[1][0];
         fine_y[m] = (1 - Pieces::s(m)) * corners[0][1] + Pieces::s(m) * corners[1][1];
       }
-      std::fill(difference.begin(), difference.end(), 0.0);
       double square = 0;
       for (int alpha = 0; alpha < count_; ++alpha) {
         boundary[alpha].dirichlet[tag]->evaluate({x.size(), x.data(), y.data()}, time_, g.data());
@@ -223,7 +236,6 @@ void BoundaryLift::find_faces(const ContinuousNodes& nodes, const std::array<sce
           for (int l = 0; l < n; ++l) delta -= trace[i].value[q * n + l] * held[alpha][of_cells(k, l)];
           largest = std::max(largest, std::abs(delta));
           size = std::max(size, std::abs(g[q]));
-          difference[q] += alpha == 0 ? delta : -delta;
           const double s = rule.point[q], quotient = delta / (s * (1 - s));
           for (int j = 0; j <= LiftInCell::resolution; ++j)
             coefficient[j] += rule.weight[q] * quotient * legendre[q * (LiftInCell::resolution + 1) + j];
@@ -236,9 +248,6 @@ void BoundaryLift::find_faces(const ContinuousNodes& nodes, const std::array<sce
         square += largest_tension(*tension[alpha], fine_x, fine_y) * Pieces::energy(rho, corners[0], corners[1], corners[2]);
       }
       if (static_cast<LocalIndex>(k) < space_.mesh().owned_cells) left[static_cast<LocalIndex>(k)] += std::sqrt(square);
-      double most = 0;
-      for (const double d : difference) most = std::max(most, std::abs(d));
-      cell.difference += most;
     }
   largest_ = largest;
   empty_ = largest <= 1e-13 * size;
@@ -280,7 +289,6 @@ void BoundaryLift::find_layer() {
     if (in(k) == 0) continue;
     const bool on_boundary = next != boundary_.end() && next->position == static_cast<LocalIndex>(k);
     for (int alpha = 0; alpha < 2; ++alpha) lift_[alpha].push_back(on_boundary ? next->l[alpha] : LiftInCell());
-    difference_.push_back(on_boundary ? next->difference : 0);
     if (on_boundary) ++next;
     layer.push_back(cells(k));
     if (cells(k) < mesh.owned_cells) owned.push_back(cells(k));
@@ -322,9 +330,11 @@ LiftInCell BoundaryLift::difference(LocalIndex place) const {
 }
 
 double BoundaryLift::bound_of_difference(LocalIndex place) const {
-  double most = 0;
-  for (const double v : difference(place).v) most = std::max(most, std::abs(v));
-  return 1.1 * difference_[place] + most;  // on faces it was seen at points only
+  const LiftInCell D = difference(place);
+  double bound = 0;
+  for (const double v : D.v) bound = std::max(bound, std::abs(v));
+  for (int f = 0; f < D.faces; ++f) bound += largest_on_face(D.q[f]);
+  return bound;
 }
 
 void BoundaryLift::set_up_equations(const std::array<scene::FieldPtr, 2>& tension) {

@@ -57,11 +57,10 @@ class BoundaryLift {
   double bound_of_difference(LocalIndex place) const;
 
  private:
-  /// A patch cell with held faces, and the sum over them of the largest |delta_1 - delta_2| seen.
+  /// A patch cell with held faces.
   struct OnBoundary {
     LocalIndex position;
     LiftInCell l[2];
-    double difference;
   };
   void find_faces(const ContinuousNodes& nodes, const std::array<scene::FieldPtr, 2>& tension,
                   const std::array<method::BoundaryValues, 2>& boundary, const std::vector<double> (&held)[2]);
@@ -84,7 +83,6 @@ class BoundaryLift {
   View<const LocalIndex*> layer_, owned_;  ///< layer cells of this rank: the owned ones first
   reference::CellBasis basis_;             ///< of v
   std::vector<LiftInCell> lift_[2];        ///< in the layer cells; v is known in the owned ones
-  std::vector<double> difference_;         ///< in the layer cells: OnBoundary::difference
   LiftOfCells of_cells_;
   double energy_ = 0, largest_ = 0;
 };

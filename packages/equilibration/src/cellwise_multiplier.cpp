@@ -1,3 +1,4 @@
+#include "held_moments.hpp"
 #include "multiplier.hpp"
 #include "tables.hpp"
 #include "thixis/algebra/tpetra.hpp"
@@ -9,18 +10,22 @@ namespace {
 struct FitCell {
   Kokkos::View<const LocalIndex**, Kokkos::LayoutRight> entries;
   View<const double*> moment;
+  ConstCellTable held;  ///< against held functions; of length 0: none
   Matrix from_moments;  ///< (mode, l)
   Matrix to_bernstein;  ///< (b, mode)
   CellTable density;    ///< out, overwritten
 
   KOKKOS_FUNCTION void operator()(int K) const {
     const int modes = to_bernstein.extent_int(1), n = from_moments.extent_int(1);
-    double c[reference::max_functions] = {};
+    double c[reference::max_functions] = {}, of_cell[reference::max_functions];
     bool nothing = true;
-    for (int l = 0; l < n; ++l) nothing = nothing && moment(entries(K, l)) == 0;
+    for (int l = 0; l < n; ++l) {
+      of_cell[l] = moment(entries(K, l)) + (held.extent(0) > 0 ? held(K, l) : 0);
+      nothing = nothing && of_cell[l] == 0;
+    }
     for (int m = 0; m < modes; ++m) {
       c[m] = 0;
-      for (int l = 0; l < n && !nothing; ++l) c[m] += from_moments(m, l) * moment(entries(K, l));
+      for (int l = 0; l < n && !nothing; ++l) c[m] += from_moments(m, l) * of_cell[l];
     }
     const double mean = c[0] * Kokkos::Experimental::sqrt(2.0);
     double lowest = mean;
@@ -37,7 +42,7 @@ struct FitCell {
 
 class CellwiseMultiplier final : public NonNegativeMultiplier {
  public:
-  explicit CellwiseMultiplier(const method::PolynomialSpace& space) : space_(space) {
+  explicit CellwiseMultiplier(const method::PolynomialSpace& space) : space_(space), held_(space) {
     const auto& basis = space.basis();
     const reference::Modal modal(basis.degree());
     const auto B = reference::bernstein(space.flux_degree());
@@ -54,14 +59,19 @@ class CellwiseMultiplier final : public NonNegativeMultiplier {
     }
     const auto at_entries =
         space_.complete(all, method::Coefficients("thixis::equilibration::nothing", space_.coefficients().entries.size()));
-    Kokkos::parallel_for("thixis::equilibration::fit_cell", Kokkos::RangePolicy<>(0, density.extent_int(0)),
-                         FitCell{space_.coefficients().element_entries, at_entries, from_moments_, to_bernstein_, density});
+    held_(at_entries);
+    Kokkos::parallel_for(
+        "thixis::equilibration::fit_cell", Kokkos::RangePolicy<>(0, density.extent_int(0)),
+        FitCell{space_.coefficients().element_entries, at_entries, held_.of_cells(), from_moments_, to_bernstein_, density});
   }
 
-  std::size_t bytes() const override { return sizeof(double) * (from_moments_.size() + to_bernstein_.size()); }
+  ConstCellTable held_moments() const override { return held_.of_cells(); }
+
+  std::size_t bytes() const override { return sizeof(double) * (from_moments_.size() + to_bernstein_.size() + held_.of_cells().size()); }
 
  private:
   const method::PolynomialSpace& space_;
+  HeldMoments held_;
   Matrix from_moments_, to_bernstein_;
 };
 

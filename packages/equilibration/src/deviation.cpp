@@ -92,7 +92,7 @@ Deviation deviation_of_membranes(const method::PolynomialSpace& space, const Bou
 }
 
 Deviation deviation_of_obstacle(const method::PolynomialSpace& space, const BoundaryLift& lift, const ContinuousNodes& nodes,
-                                const scene::FieldPtr& obstacle, const std::vector<double>& psi) {
+                                const scene::FieldPtr& obstacle, const std::vector<double>& psi, const method::Jumps& jumps) {
   const mesh::Mesh& mesh = space.mesh();
   const core::Comm& comm = mesh.comm;
   const auto host = mesh::on_host(mesh);
@@ -119,6 +119,7 @@ Deviation deviation_of_obstacle(const method::PolynomialSpace& space, const Boun
   const double width = std::max(comm.max(high[0]) - comm.min(low[0]), comm.max(high[1]) - comm.min(low[1]));
 
   // where is psi more than its interpolant?
+  bool deviates = false;
   const auto psi_less_interpolant = [&](const method::QuadratureBlock& block, LocalIndex k, const View<double*>& value, int q) {
     double c[reference::max_functions];
     polynomial(block.cell(k), c);
@@ -133,13 +134,16 @@ Deviation deviation_of_obstacle(const method::PolynomialSpace& space, const Boun
         double most = 0;
         for (int q = block.offset(k); q < block.offset(k + 1); ++q)
           most = std::max(most, std::abs(psi_less_interpolant(block, k, value, q)));
-        if (most > 1e-13 * size || in_layer[block.cell(k)] >= 0) positions.push_back(block.first + k);
+        deviates = deviates || most > 1e-13 * size;
+        const bool more = most > 1e-13 * size && !jumps.at(block.first + k);
+        if (more || in_layer[block.cell(k)] >= 0) positions.push_back(block.first + k);
       }
     });
   });
   if (!comm.any(!positions.empty())) return {};
 
   Deviation deviation;
+  deviation.of_obstacle = comm.any(deviates);
   deviation.quadrature = subset(all, positions);
   const auto place = nowhere(mesh);
   const View<double*> bound("thixis::equilibration::deviation_bound", positions.size());
@@ -156,6 +160,7 @@ Deviation deviation_of_obstacle(const method::PolynomialSpace& space, const Boun
       for (LocalIndex k = 0; k < block.cells; ++k) {
         const LocalIndex K = block.cell(k), at = block.first + k;
         place(K) = at;
+        if (in_layer[K] >= 0) bound(at) = lift.bound_of_difference(in_layer[K]);
         const auto geometry = mesh::cell_geometry(host.coordinates, host.cell_vertices, K);
         double c[reference::max_functions];
         polynomial(K, c);
@@ -164,11 +169,13 @@ Deviation deviation_of_obstacle(const method::PolynomialSpace& space, const Boun
           const GlobalIndex p = deviation.quadrature.offset(block.first) + q;
           double interpolant[3];
           functions.B.gradient(c, lambda, interpolant);
-          D(p, 0) = functions.B.value(c, lambda) - value(q);
-          D(p, 1) = -x(q);
-          D(p, 2) = -y(q);
-          for (int a = 0; a < 3; ++a)
-            for (int d = 0; d < 2; ++d) D(p, 1 + d) += interpolant[a] * geometry.gradient[a][d];
+          if (!jumps.at(positions[at])) {
+            D(p, 0) = functions.B.value(c, lambda) - value(q);
+            D(p, 1) = -x(q);
+            D(p, 2) = -y(q);
+            for (int a = 0; a < 3; ++a)
+              for (int d = 0; d < 2; ++d) D(p, 1 + d) += interpolant[a] * geometry.gradient[a][d];
+          }
           if (in_layer[K] >= 0) {
             const auto L = lift(0, in_layer[K], xi, eta);
             D(p, 0) += L.value;
@@ -183,6 +190,40 @@ Deviation deviation_of_obstacle(const method::PolynomialSpace& space, const Boun
   deviation.bound = bound;
   deviation.at_points = D;
   return deviation;
+}
+
+Excess excess_of_majorant(const method::PolynomialSpace& space, const ContinuousNodes& nodes, const scene::Field& obstacle,
+                          const std::vector<double>& majorant, const method::Jumps& jumps) {
+  const mesh::Mesh& mesh = space.mesh();
+  std::vector<LocalIndex> positions;
+  for (LocalIndex k = 0; k < mesh.owned_cells; ++k)
+    if (jumps.at(k)) positions.push_back(k);
+  if (positions.empty()) return {};
+  const auto of_cells = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), nodes.of_cells);
+  const auto functions = method::cell_functions(space.basis());
+  const reference::Modal modal(space.basis().degree());
+  const int n = space.basis().size();
+  Excess excess{nowhere(mesh), CellTable("thixis::equilibration::excess", positions.size(), n)};
+  const auto quadrature = subset(space.quadrature(), positions);
+  const View<double*> psi("thixis::equilibration::obstacle", quadrature.largest_block);
+  method::for_each_block(quadrature, [&](const method::QuadratureBlock& block) {
+    method::evaluate(obstacle, 0, block, psi);
+    for (LocalIndex k = 0; k < block.cells; ++k) {
+      const LocalIndex K = block.cell(k), at = block.first + k;
+      excess.place(K) = at;
+      double local[reference::max_functions], c[reference::max_functions], area = 0;
+      for (int l = 0; l < n; ++l) local[l] = majorant[of_cells(K, l)];
+      functions.to_bernstein(local, c);
+      for (int q = block.offset(k); q < block.offset(k + 1); ++q) area += block.weight(q);
+      for (int q = block.offset(k); q < block.offset(k + 1); ++q) {
+        const double xi = block.xi(q, 0), eta = block.xi(q, 1), lambda[3] = {1 - xi - eta, xi, eta};
+        const double above = block.weight(q) / (2 * area) * (functions.B.value(c, lambda) - psi(q));
+        const auto phi = modal.values(1, &block.xi(q, 0));
+        for (int m = 0; m < n; ++m) excess.moments(at, m) += above * phi[m];
+      }
+    }
+  });
+  return excess;
 }
 
 }  // namespace thixis::equilibration

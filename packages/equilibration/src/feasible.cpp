@@ -8,6 +8,7 @@
 #include "deviation.hpp"
 #include "sources.hpp"
 #include "tables.hpp"
+#include "tension_bounds.hpp"
 #include "thixis/core/assert.hpp"
 #include "thixis/method/gradient_form.hpp"
 #include "to_view.hpp"
@@ -154,6 +155,8 @@ struct FeasiblePair::Impl {
       : space(space_), problem(problem_), nodes(nodes_of(space, held_tags(problem.boundary[0]))), monomials(density_monomials()) {
     set_tensions();
     set_kernel();
+    if (problem.count == 1)
+      jumps = space.mesh().comm.together([&] { return method::jumps_in_cells(space.quadrature(), *problem.obstacle, 0); });
     set_boundary(nullptr);
     if (space.conforming()) return;
     averages.emplace(space, nodes);
@@ -164,6 +167,7 @@ struct FeasiblePair::Impl {
       : space(other.space),
         problem(other.problem),
         nodes(other.nodes),
+        jumps(other.jumps),
         monomials(other.monomials),
         modal(other.modal),
         tension(other.tension),
@@ -181,25 +185,27 @@ struct FeasiblePair::Impl {
     const bool both = problem.count == 2;
     bool varying = false;
     double typical[2] = {0, 0};
+    std::vector<double> most[2];
     for (int alpha = 0; alpha < problem.count; ++alpha) {
+      const TensionBounds bounds = tension_bounds(space, *problem.tension[alpha]);
       if (const double* mu = problem.tension[alpha]->constant()) {
         typical[alpha] = tension.constant[alpha] = *mu;
       } else {
         varying = true;
-        tension.at_points[alpha] = method::tension_at_points(space.mesh(), space.quadrature(), *problem.tension[alpha]);
+        tension.at_points[alpha] = bounds.at_points;
         typical[alpha] = mean(comm, tension.at_points[alpha]);
       }
+      most[alpha] = bounds.most;
     }
     kernel.apart[0] = both ? typical[1] / (typical[0] + typical[1]) : 1;
     kernel.apart[1] = 1 - kernel.apart[0];
     const double* const apart = kernel.apart;
     kernel.constant_move_tension = typical[0] * apart[0] * apart[0] + typical[1] * apart[1] * apart[1];
     if (!varying) return;
-    const View<double*> most("thixis::equilibration::move_tension", space.mesh().owned_cells);
+    const View<double*> of_move("thixis::equilibration::move_tension", space.mesh().owned_cells);
     for (LocalIndex K = 0; K < space.mesh().owned_cells; ++K)
-      for (GlobalIndex q = space.quadrature().offset(K); q < space.quadrature().offset(K + 1); ++q)
-        most(K) = std::max(most(K), tension(0, q) * apart[0] * apart[0] + tension(1, q) * apart[1] * apart[1]);
-    kernel.move_tension = most;
+      for (int alpha = 0; alpha < problem.count; ++alpha) of_move(K) += most[alpha][K] * apart[alpha] * apart[alpha];
+    kernel.move_tension = of_move;
     if (both) kernel.theta = to_view("thixis::equilibration::theta", comm.together([&] { return shares(space, nodes, problem.tension); }));
   }
 
@@ -226,7 +232,7 @@ struct FeasiblePair::Impl {
     space.mesh().comm.together([&] {
       for (int alpha = 0; alpha < problem.count; ++alpha)
         held[alpha] = boundary_coefficients(space, nodes, problem.boundary[alpha].dirichlet, problem.time);
-      if (problem.count == 1) held[1] = interpolant(space, nodes, *problem.obstacle);
+      if (problem.count == 1) held[1] = obstacle_coefficients(space, nodes, *problem.obstacle, jumps);
     });
     // Bernstein coefficients of ordered data need not be ordered
     for (LocalIndex e = 0; e < nodes.entries.size(); ++e) {
@@ -237,9 +243,18 @@ struct FeasiblePair::Impl {
     }
     lift = std::make_unique<BoundaryLift>(space, nodes, problem.tension, problem.boundary, held, problem.count, problem.time, other);
     kernel.lift = lift->of_cells();
-    kernel.deviation =
-        problem.count == 2 ? deviation_of_membranes(space, *lift) : deviation_of_obstacle(space, *lift, nodes, problem.obstacle, held[1]);
+    if (problem.count == 2) kernel.deviation = deviation_of_membranes(space, *lift);
+    else set_obstacle(held[1], held[0]);
     for (int alpha = 0; alpha < 2; ++alpha) data[alpha] = to_view("thixis::equilibration::held", held[alpha]);
+  }
+
+  /// `psi`: psi_I, `g`: the boundary data.
+  void set_obstacle(const std::vector<double>& psi, const std::vector<double>& g) {
+    const auto above = majorant(space, nodes, jumps, psi, g);
+    kernel.deviation = deviation_of_obstacle(space, *lift, nodes, problem.obstacle, above.empty() ? psi : above, jumps);
+    if (above.empty()) return;
+    kernel.majorant = to_view("thixis::equilibration::majorant", above);
+    kernel.excess = excess_of_majorant(space, nodes, *problem.obstacle, above, jumps);
   }
 
   /// Gaps below are round-off. Collective.
@@ -257,6 +272,7 @@ struct FeasiblePair::Impl {
   const method::PolynomialSpace& space;
   Problem problem;
   ContinuousNodes nodes;
+  method::Jumps jumps;  ///< of the obstacle
   Matrix monomials;
   Matrix modal;  ///< (m, l): modal coefficients of basis functions
   Tension tension;
@@ -297,8 +313,10 @@ void FeasiblePair::evaluate(const method::Coefficients (&u)[2], const ConstCellT
   kernel.at_nodes = parts.at_nodes;
   kernel.rest = parts.rest;
   kernel.contact = parts.contact;
+  kernel.at_points = View<bool>("thixis::equilibration::at_points");
   Kokkos::parallel_for("thixis::equilibration::feasible_parts", Kokkos::RangePolicy<>(0, cells), kernel);
   Kokkos::fence();
+  parts.at_points = kernel.at_points();
   for (const auto& [cell, energy] : impl_->lift->remainder()) {
     parts.whole(cell) += energy;
     parts.rest(cell) += energy;
@@ -448,6 +466,17 @@ FeasiblePair::Bulge FeasiblePair::bulge(const FeasiblePair& before, const Feasib
         bulge.energy(K) = std::sqrt(square > 0 ? square : 0);
       });
   return bulge;
+}
+
+bool FeasiblePair::obstacle_is_interpolated() const { return !impl_->kernel.deviation.of_obstacle; }
+
+View<const bool*> FeasiblePair::jumps() const {
+  const method::Jumps& jumps = impl_->jumps;
+  const View<bool*> of_cells("thixis::equilibration::jumps", jumps.of_cells.size());
+  const auto host = Kokkos::create_mirror_view(of_cells);
+  for (std::size_t k = 0; k < jumps.of_cells.size(); ++k) host(k) = jumps.of_cells[k].jumps;
+  Kokkos::deep_copy(of_cells, host);
+  return of_cells;
 }
 
 double FeasiblePair::boundary_energy() const { return impl_->lift->energy(); }

@@ -39,6 +39,7 @@ KOKKOS_FUNCTION FeasibleParts::Move FeasibleParts::move_pointwise(int K, LocalIn
   Move move;
   const bool apart_already = smallest(n, gap) >= deviation.bound(place);
   if (apart_already && !counts) return move;
+  if (at_points.data() != nullptr) at_points() = true;
   double a[max_density];
   if (counts) density.monomials(&lambda(K, 0), a);
   int below = 0;
@@ -69,13 +70,14 @@ KOKKOS_FUNCTION double FeasibleParts::contact_alone(int K) const {
   double node_gap[most], gap[most];
   for (int l = 0; l < functions.size(); ++l) {
     const LocalIndex e = of_cells(K, l);
-    const double open = s_c[0](e) - s_c[1](e);
+    const double open = s_c[0](e) - floor(e);
     node_gap[l] = open < 0 ? 0 : open;
   }
   functions.to_bernstein(node_gap, gap);
   const mesh::CellGeometry geometry = mesh::cell_geometry(x, vertices, K);
   const LocalIndex place = deviation(K);
-  return (place < 0 ? move_polynomial(K, geometry, gap, true) : move_pointwise(K, place, geometry, gap, true)).contact;
+  return (place < 0 ? move_polynomial(K, geometry, gap, true) : move_pointwise(K, place, geometry, gap, true)).contact +
+         contact_of_excess(K);
 }
 
 KOKKOS_FUNCTION bool FeasibleParts::moves(int K, const double* gap) const {
@@ -85,9 +87,9 @@ KOKKOS_FUNCTION bool FeasibleParts::moves(int K, const double* gap) const {
 
 KOKKOS_FUNCTION void FeasibleParts::operator()(int K) const {
   const int n = functions.size();
-  // s_c -> s_N: the change of each membrane and the gap that is left, at the nodes
-  double change[2][most], node_gap[most];
-  bool closed = false;
+  // s_c -> s_N: the change of each membrane and the gap that is left, at the nodes; then up to the majorant
+  double change[2][most], node_gap[most], raise[most];
+  bool closed = false, raised = false;
   for (int l = 0; l < n; ++l) {
     const LocalIndex e = of_cells(K, l);
     const double open = s_c[0](e) - s_c[1](e), below = open < 0 ? -open : 0, share = theta.extent(0) > 0 ? theta(e) : apart[0];
@@ -95,6 +97,10 @@ KOKKOS_FUNCTION void FeasibleParts::operator()(int K) const {
     change[0][l] = share * below;
     change[1][l] = -(1 - share) * below;
     closed = closed || open < 0;
+    const double above = s_c[1](e) + node_gap[l] - floor(e);
+    raise[l] = above < 0 ? -above : 0;
+    if (majorant.extent(0) > 0) node_gap[l] = above < 0 ? 0 : above;
+    raised = raised || raise[l] > 0;
   }
   const mesh::CellGeometry geometry = mesh::cell_geometry(x, vertices, K);
   double c[most];
@@ -104,9 +110,14 @@ KOKKOS_FUNCTION void FeasibleParts::operator()(int K) const {
   };
   double nodes2 = 0;
   for (int alpha = 0; closed && alpha < count; ++alpha) nodes2 += square(alpha, change[alpha]);
+  double raise2 = 0;
+  if (raised) {  // over an obstacle only
+    raise2 = square(0, raise);
+    for (int l = 0; l < n; ++l) change[0][l] += raise[l];
+  }
 
   // u_h -> s_c
-  double averages2 = 0, polynomial2 = nodes2;
+  double averages2 = 0, polynomial2 = raised ? square(0, change[0]) : nodes2;
   if (of_cells_u.extent(0) > 0) {
     polynomial2 = 0;
     for (int alpha = 0; alpha < count; ++alpha) {
@@ -116,9 +127,9 @@ KOKKOS_FUNCTION void FeasibleParts::operator()(int K) const {
         total[l] = change[alpha][l] += jump[l];
       }
       averages2 += square(alpha, jump);
-      if (closed) polynomial2 += square(alpha, total);
+      if (closed || raised) polynomial2 += square(alpha, total);
     }
-    if (!closed) polynomial2 = averages2;
+    if (!closed && !raised) polynomial2 = averages2;
   }
 
   // s_N -> s: the lift, exactly, and what is moved apart
@@ -140,8 +151,8 @@ KOKKOS_FUNCTION void FeasibleParts::operator()(int K) const {
 
   whole(K) = (polynomial2 > 0 ? std::sqrt(polynomial2) : 0) + moved;
   at_nodes(K) = std::sqrt(nodes2);
-  rest(K) = std::sqrt(lift2) + moved + std::sqrt(averages2);
-  contact(K) = move.contact;
+  rest(K) = std::sqrt(lift2) + moved + std::sqrt(averages2) + std::sqrt(raise2);
+  contact(K) = move.contact + (counts ? contact_of_excess(K) : 0);
 }
 
 }  // namespace thixis::equilibration

@@ -19,7 +19,15 @@ struct Deviation {
   method::CellQuadrature quadrature;  ///< on the places
   View<const double*> bound;          ///< of |D| in the cell
   View<const double* [3]> at_points;  ///< D and its derivatives
+  bool of_obstacle = false;           ///< psi is more than psi_I in some cell of some rank
   KOKKOS_FUNCTION LocalIndex operator()(LocalIndex K) const { return place.extent(0) == 0 ? -1 : place(K); }
+};
+
+/// Where the majorant of an obstacle is above it: moments of the difference against the modal polynomials of degree p, on the reference
+/// triangle.
+struct Excess {
+  View<LocalIndex*> place;  ///< of a cell in `moments`, -1: none; of length 0: no cell has one
+  CellTable moments;
 };
 
 /// The parts of the bound that the feasible pair gives, cell by cell (docs/methods/estimates.md, 4).
@@ -33,6 +41,8 @@ struct FeasibleParts {
   Matrix to_modal;  ///< of Bernstein polynomials
   LiftOfCells lift;
   Deviation deviation;
+  View<const double*> majorant;  ///< coefficients of what s is to be above where it is more than psi_I; of length 0: psi_I
+  Excess excess;
 
   CellEntries of_cells;                ///< of s_c and psi_I
   Kokkos::View<const double*> s_c[2];  ///< [1] over an obstacle: psi_I
@@ -49,6 +59,7 @@ struct FeasibleParts {
   ConstCellTable lambda;
   DensityValues density;
   View<double*> whole, at_nodes, rest, contact;  ///< out, overwritten
+  View<bool> at_points;                          ///< out: set where integrals are what a quadrature makes of them; may be null
 
   KOKKOS_FUNCTION void operator()(int K) const;
   /// What `contact` is of s_c alone.
@@ -71,6 +82,16 @@ struct FeasibleParts {
   KOKKOS_FUNCTION double stiffness(int K) const { return move_tension.extent(0) > 0 ? move_tension(K) : constant_move_tension; }
   KOKKOS_FUNCTION Move move_polynomial(int K, const mesh::CellGeometry& geometry, const double* gap, bool counts) const;
   KOKKOS_FUNCTION Move move_pointwise(int K, LocalIndex place, const mesh::CellGeometry& geometry, const double* gap, bool counts) const;
+  /// What s is to be above at a node.
+  KOKKOS_FUNCTION double floor(LocalIndex e) const { return majorant.extent(0) > 0 ? majorant(e) : s_c[1](e); }
+  /// The integral of the density times what the majorant is above the obstacle.
+  KOKKOS_FUNCTION double contact_of_excess(int K) const {
+    const LocalIndex at = excess.place.extent(0) > 0 ? excess.place(K) : -1;
+    const int n = functions.size(), m = n < lambda.extent_int(1) ? n : lambda.extent_int(1);
+    double sum = 0;
+    for (int k = 0; k < m && at >= 0; ++k) sum += lambda(K, k) * excess.moments(at, k);
+    return sum > 0 ? sum : 0;
+  }
   KOKKOS_FUNCTION double contact_of(int K, const double* gap) const {
     const int n = functions.size(), m = n < lambda.extent_int(1) ? n : lambda.extent_int(1);
     double sum = 0;

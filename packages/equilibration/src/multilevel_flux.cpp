@@ -197,7 +197,7 @@ MultilevelFlux::MultilevelFlux(mesh::Ancestry ancestry, const core::Comm& comm, 
     : impl_(std::make_unique<Impl>(std::move(ancestry), comm, held, q)) {}
 MultilevelFlux::~MultilevelFlux() = default;
 
-void MultilevelFlux::operator()(const ConstCellTable& r, const CellTable& sigma) const {
+double MultilevelFlux::operator()(const ConstCellTable& r, const CellTable& sigma) const {
   const Impl& in = *impl_;
   const int last = static_cast<int>(in.families.size()), n = in.n, flux = in.flux;
   const auto leaf = in.leaf;
@@ -218,18 +218,20 @@ void MultilevelFlux::operator()(const ConstCellTable& r, const CellTable& sigma)
                            Sum{family.cut, family.parent, family.child, n, density(j + 1), in.density[j]});
     if (j == in.ancestry.shared) in.reduce(in.density[j]);
   }
-  in.root(in.density[0].extent(0) > 0 ? ConstCellTable(in.density[0]) : r, in.direct && last == 0 ? sigma : in.sigma[0]);
+  const double left =
+      in.root(in.density[0].extent(0) > 0 ? ConstCellTable(in.density[0]) : r, in.direct && last == 0 ? sigma : in.sigma[0]);
   for (int j = 0; j < last; ++j)
     for (const Family& family : in.families[j])
       Kokkos::parallel_for("thixis::equilibration::descend", Kokkos::RangePolicy<>(0, family.parent.extent_int(0)),
                            Descend{family.cut, family.parent, family.child, n, flux, density(j + 1), in.density[j], in.sigma[j],
                                    j + 1 == last && in.direct ? sigma : in.sigma[j + 1]});
-  if (in.direct) return;
+  if (in.direct) return left;
   const ConstCellTable table = in.sigma[last];
   Kokkos::parallel_for(
       "thixis::equilibration::from_leaves", Kokkos::RangePolicy<>(0, leaf.extent_int(0)), KOKKOS_LAMBDA(int K) {
         for (int i = 0; i < flux; ++i) sigma(K, i) = table(leaf(K), i);
       });
+  return left;
 }
 
 std::size_t MultilevelFlux::bytes() const {

@@ -15,6 +15,8 @@ class NonNegativeMultiplier {
   /// moments: M_l = max(X3_l, 0) D_l at contact points. density: of the multiplier on the owned cells, (K, dim P_q); patch: for conforming
   /// spaces (k, i dim P_q + m), the part of it that belongs to vertex i of patch cell k, empty for others. Overwrites both. Collective.
   virtual void operator()(const algebra::Vector& moments, const CellTable& density, const CellTable& patch) const = 0;
+  /// What the last call took for the moments against held functions, (patch cell, l); of length 0: there are none to be had.
+  virtual ConstCellTable held_moments() const { return {}; }
   virtual std::size_t bytes() const = 0;
 };
 
@@ -22,9 +24,13 @@ class NonNegativeMultiplier {
 /// the hat function psi_a that they give, and drawn to its mean just so far that it is nowhere negative (by its Bernstein coefficients);
 ///
 ///     lambda = sum_a psi_a L_a >= 0,   (L_a, psi_a) = sum_l c_l M_l  with psi_a = sum_l c_l psi_l   at every free vertex.
-std::unique_ptr<NonNegativeMultiplier> patchwise_multiplier(const method::PolynomialSpace& space);
+///
+/// `avoid`, by patch cell (of length 0: none): cells in which the obstacle jumps. Patches that have others with contact leave them without
+/// a multiplier, which would press there on a gap that the feasible function can not close.
+std::unique_ptr<NonNegativeMultiplier> patchwise_multiplier(const method::PolynomialSpace& space, const View<const bool*>& avoid);
 
-/// Functions without continuity: in every cell the function with these moments, projected on P_q and drawn to its mean likewise.
+/// Functions without continuity: in every cell the function with these moments (against held functions those of HeldMoments), projected on
+/// P_q and drawn to its mean likewise.
 std::unique_ptr<NonNegativeMultiplier> cellwise_multiplier(const method::PolynomialSpace& space);
 
 }  // namespace thixis::equilibration

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "least_squares.hpp"
 #include "tables.hpp"
 #include "thixis/mesh/host.hpp"
 #include "to_view.hpp"
@@ -14,34 +15,6 @@ namespace {
 bool inside_patch(const reference::NodeEntity& entity, int i) {
   return entity.kind == reference::Entity::interior || (entity.kind == reference::Entity::vertex && entity.index == i) ||
          (entity.kind == reference::Entity::face && entity.index != i);
-}
-
-/// Appends (A^T A)^{-1} A^T; nothing if the moments do not determine the polynomial.
-void append_fit(const std::vector<double>& A, LocalIndex nodes, int n, std::vector<double>& fit) {
-  double scale = 0;
-  for (const double value : A) scale = std::max(scale, std::abs(value));
-  double normal[most_coefficients][2 * most_coefficients] = {};
-  for (int i = 0; i < n; ++i) {
-    normal[i][n + i] = 1;
-    for (int j = 0; j < n; ++j)
-      for (LocalIndex l = 0; l < nodes; ++l) normal[i][j] += A[l * n + i] * A[l * n + j] / (scale * scale);
-  }
-  for (int k = 0; k < n; ++k) {  // Gauss–Jordan: the matrix is symmetric and positive, or the patch has no fit
-    if (!(normal[k][k] > 1e-9)) return;
-    const double pivot = normal[k][k];
-    for (int j = 0; j < 2 * n; ++j) normal[k][j] /= pivot;
-    for (int i = 0; i < n; ++i) {
-      const double factor = normal[i][k];
-      if (i == k || factor == 0) continue;
-      for (int j = 0; j < 2 * n; ++j) normal[i][j] -= factor * normal[k][j];
-    }
-  }
-  for (int b = 0; b < n; ++b)
-    for (LocalIndex l = 0; l < nodes; ++l) {
-      double sum = 0;
-      for (int j = 0; j < n; ++j) sum += normal[b][n + j] * A[l * n + j];
-      fit.push_back(sum / (scale * scale));
-    }
 }
 
 /// (i, l): the hat function of vertex i in a basis.
@@ -102,7 +75,11 @@ class Builder {
         weight_(patches.size(), 0.0),
         diameter_(patches.size()),
         place_("thixis::equilibration::place", patches.size()),
-        place_host_(Kokkos::create_mirror_view(place_)) {}
+        place_host_(Kokkos::create_mirror_view(place_)),
+        free_("thixis::equilibration::free_patch", patches.size()),
+        free_host_(Kokkos::create_mirror_view(free_)) {
+    Kokkos::deep_copy(free_host_, true);
+  }
 
   Fits fits() {
     for (LocalIndex a = 0; a < static_cast<LocalIndex>(weight_.size()); ++a) {
@@ -119,12 +96,14 @@ class Builder {
       fit_offset_.push_back(static_cast<LocalIndex>(fit_.size()));
     }
     Kokkos::deep_copy(place_, place_host_);
+    Kokkos::deep_copy(free_, free_host_);
     return {to_view("thixis::equilibration::node_offset", node_offset_),
             to_view("thixis::equilibration::patch_nodes", node_),
             to_view("thixis::equilibration::hat", hat_of_node_),
             to_view("thixis::equilibration::fit_offset", fit_offset_),
             to_view("thixis::equilibration::fit", fit_),
             to_view("thixis::equilibration::patch_weight", weight_),
+            free_,
             to_view("thixis::equilibration::patch_diameter", diameter_),
             place_};
   }
@@ -148,7 +127,9 @@ class Builder {
     for (LocalIndex e = offset_(a); e < offset_(a + 1); ++e)
       for (int l = 0; l < functions; ++l) {
         const LocalIndex entry = entries_(cell_(e), l);
-        if (!inside_patch(basis_.entities()[l], corner_(e)) || column_(entry) < 0) continue;
+        if (!inside_patch(basis_.entities()[l], corner_(e))) continue;
+        if (column_(entry) < 0) free_host_(a) = false;
+        if (column_(entry) < 0) continue;
         const double c = hat_[corner_(e) * functions + l];
         if (local_[entry] < 0) {
           local_[entry] = static_cast<LocalIndex>(node_.size());
@@ -199,6 +180,8 @@ class Builder {
   std::vector<double> hat_of_node_, fit_, weight_, diameter_;
   View<double* [2]> place_;
   View<double* [2]>::HostMirror place_host_;
+  View<bool*> free_;
+  View<bool*>::HostMirror free_host_;
 };
 
 }  // namespace

@@ -15,6 +15,7 @@ struct Fits {
   View<LocalIndex*> fit_offset;   ///< into `fit`
   View<double*> fit;              ///< (coefficient, node): moments -> scaled monomials around the vertex; nothing where they do not suffice
   View<double*> weight;           ///< sum_l c_l (psi_l, 1) over the free functions; 0 where there is none
+  View<bool*> free;               ///< whether no function inside the patch is held: then the moment of psi_a is to be kept
   View<double*> diameter;         ///< of the patch: the scale of the monomials
   View<double* [2]> place;        ///< of the vertex
 };

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "multiplier.hpp"
+#include "multiplier_extension.hpp"
 #include "multiplier_fits.hpp"
 #include "tables.hpp"
 #include "thixis/algebra/tpetra.hpp"
@@ -9,9 +10,34 @@
 namespace thixis::equilibration {
 namespace {
 
+/// L_a from the moments of the free functions inside each patch, and its mean.
 struct FitPatch {
+  Fits data;
+  View<const double*> moment;  ///< of entries, 0 where there is none
+  CellTable coefficients;      ///< out, overwritten: (a, b) of scaled monomials; 0 without contact and where there is no fit
+  View<double*> mean;          ///< out, overwritten; -1 where no function is free
+
+  KOKKOS_FUNCTION void operator()(int a) const {
+    const int n = coefficients.extent_int(1);
+    const LocalIndex first = data.node_offset(a), count = data.node_offset(a + 1) - first;
+    double total = 0;
+    for (LocalIndex l = first; l < first + count; ++l) total += data.hat(l) * moment(data.node(l));
+    mean(a) = data.weight(a) > 0 ? total / data.weight(a) : -1;
+    for (int b = 0; b < n; ++b) coefficients(a, b) = 0;
+    if (!(mean(a) > 0)) return;
+    if (n == 1) coefficients(a, 0) = mean(a);
+    else if (data.fit_offset(a + 1) > data.fit_offset(a))
+      for (int b = 0; b < n; ++b)
+        for (LocalIndex l = 0; l < count; ++l)
+          coefficients(a, b) += data.fit(data.fit_offset(a) + b * count + l) * moment(data.node(first + l));
+  }
+};
+
+/// lambda^_a from L_a: its moment, and no negative values.
+struct LimitPatch {
   VertexPatches patches;
   Fits data;
+  View<const int*> generation;
   View<double* [2]> x;
   View<LocalIndex* [3]> vertices;
   View<const LocalIndex*> cells;
@@ -21,33 +47,26 @@ struct FitPatch {
   Matrix from_lattice;                                           ///< (b, b)
   Matrix hat_integral;                                           ///< (i, b): ∫ lambda_i B_b
   Kokkos::View<const double***, Kokkos::LayoutRight> hat_modal;  ///< (i, m, b): ∫ lambda_i B_b phi_m
-  View<const double*> moment;                                    ///< of entries, 0 where there is none
   View<const double*> cell_mean;  ///< of lambda, from the moments of the free functions; -1 where there is none
-  CellTable patch;                ///< out, overwritten
-  View<double*> mean;             ///< out: of L_a; -1 where no function is free
+  View<const bool*> avoid;        ///< of length 0: no cell
+  ConstCellTable coefficients;
+  View<const double*> mean;
+  CellTable patch;  ///< out, overwritten
 
   KOKKOS_FUNCTION void operator()(int a) const {
     const int n = from_lattice.extent_int(0), modes = hat_modal.extent_int(1);
-    const LocalIndex first = data.node_offset(a), count = data.node_offset(a + 1) - first;
-    double total = 0;
-    for (LocalIndex l = first; l < first + count; ++l) total += data.hat(l) * moment(data.node(l));
-    const double average = data.weight(a) > 0 ? total / data.weight(a) : 0;
-    mean(a) = data.weight(a) > 0 ? average : -1;
-    double coefficient[most_coefficients] = {};
-    const bool fitted = average > 0 && degree > 0 && data.fit_offset(a + 1) > data.fit_offset(a);
-    if (fitted)
-      for (int b = 0; b < n; ++b)
-        for (LocalIndex l = 0; l < count; ++l)
-          coefficient[b] += data.fit(data.fit_offset(a) + b * count + l) * moment(data.node(first + l));
-    const double steepness = average > 0 ? concentration(a) : 0;
+    const double average = mean(a) > 0 ? mean(a) : 0, elsewhere = average > 0 ? beside(a) : 0;
+    const double steepness = elsewhere > 0 ? elsewhere : data.weight(a) > 0 && average > 0 ? concentration(a) : 0;
+    // along the edge of the contact zone what others continue says nothing
+    const bool fitted = elsewhere == 0 && average > 0 && degree > 0 && (generation(a) == 0 || (generation(a) > 0 && steepness == 0));
     double shift = 0, part = 0;
-    if (fitted) part = share(a, coefficient, average, steepness, shift);
+    if (fitted) part = share(a, average, steepness, shift);
     for (LocalIndex e = patches.offset(a); e < patches.offset(a + 1); ++e) {
       const LocalIndex k = patches.cell(e);
       const int i = patches.corner(e);
-      const double simple = in_cell(k, average, steepness);
+      const double simple = elsewhere > 0 ? open_mean(k) * average * elsewhere : in_cell(k, average, steepness);
       double B[most_coefficients];
-      if (part > 0) of_cell(a, k, coefficient, B);
+      if (part > 0) of_cell(a, k, B);
       for (int b = 0; b < n; ++b) B[b] = part > 0 ? part * (B[b] + shift) + (1 - part) * simple : simple;
       for (int m = 0; m < modes; ++m) {
         double sum = 0;
@@ -60,6 +79,21 @@ struct FitPatch {
   /// The simple function with the moment of L_a: its mean, or, along the edge of the contact zone, in proportion to the means of the cells.
   KOKKOS_FUNCTION double in_cell(LocalIndex k, double average, double steepness) const {
     return steepness > 0 && cell_mean(k) >= 0 ? average * steepness * cell_mean(k) : average;
+  }
+  /// The mean of lambda in a cell that is not to be avoided.
+  KOKKOS_FUNCTION double open_mean(LocalIndex k) const { return avoid(k) || cell_mean(k) < 0 ? 0 : cell_mean(k); }
+  /// The factor of proportion to these over the mean, where the patch has both cells to be avoided and others with contact; 0 elsewhere.
+  KOKKOS_FUNCTION double beside(int a) const {
+    if (avoid.extent(0) == 0) return 0;
+    double integral = 0, area = 0;
+    bool any = false;
+    for (LocalIndex e = patches.offset(a); e < patches.offset(a + 1); ++e) {
+      const LocalIndex k = patches.cell(e);
+      any = any || avoid(k);
+      integral += metric(k).det / 6 * open_mean(k);
+      area += metric(k).det / 6;
+    }
+    return any && integral > 0 ? area / integral : 0;
   }
   /// The factor of proportion over the mean; 0 away from the edge.
   KOKKOS_FUNCTION double concentration(int a) const {
@@ -76,7 +110,7 @@ struct FitPatch {
   }
 
   /// Bernstein coefficients of L_a in a cell.
-  KOKKOS_FUNCTION void of_cell(int a, LocalIndex k, const double* coefficient, double* B) const {
+  KOKKOS_FUNCTION void of_cell(int a, LocalIndex k, double* B) const {
     const int n = from_lattice.extent_int(0);
     const LocalIndex K = cells(k);
     double value[most_coefficients], monomial[most_coefficients];
@@ -86,7 +120,7 @@ struct FitPatch {
         for (int d = 0; d < 2; ++d) at[d] += lattice(l, v) * x(vertices(K, v), d);
       monomials(degree, (at[0] - data.place(a, 0)) / data.diameter(a), (at[1] - data.place(a, 1)) / data.diameter(a), monomial);
       value[l] = 0;
-      for (int b = 0; b < n; ++b) value[l] += coefficient[b] * monomial[b];
+      for (int b = 0; b < n; ++b) value[l] += coefficients(a, b) * monomial[b];
     }
     for (int b = 0; b < n; ++b) {
       B[b] = 0;
@@ -94,24 +128,25 @@ struct FitPatch {
     }
   }
 
-  /// The shift that gives L_a its moment, and the largest part of it that, with the simple function for the rest, is non-negative.
-  KOKKOS_FUNCTION double share(int a, const double* coefficient, double average, double steepness, double& shift) const {
+  /// The shift that gives L_a its moment, and the largest part of it that, with the simple function for the rest, is non-negative. Where
+  /// functions inside the patch are held, `average` is only near the mean of lambda, and no moment needs to be kept: no shift.
+  KOKKOS_FUNCTION double share(int a, double average, double steepness, double& shift) const {
     const int n = from_lattice.extent_int(0);
     double moment_of_fit = 0, area = 0;
     for (LocalIndex e = patches.offset(a); e < patches.offset(a + 1); ++e) {
       const LocalIndex k = patches.cell(e);
       double B[most_coefficients];
-      of_cell(a, k, coefficient, B);
+      of_cell(a, k, B);
       for (int b = 0; b < n; ++b) moment_of_fit += metric(k).det * hat_integral(patches.corner(e), b) * B[b];
       area += metric(k).det / 6;
     }
-    shift = average - moment_of_fit / area;
+    shift = data.free(a) || steepness > 0 ? average - moment_of_fit / area : 0;
     double part = 1;
     for (LocalIndex e = patches.offset(a); e < patches.offset(a + 1); ++e) {
       const LocalIndex k = patches.cell(e);
       const double simple = in_cell(k, average, steepness);
       double B[most_coefficients];
-      of_cell(a, k, coefficient, B);
+      of_cell(a, k, B);
       for (int b = 0; b < n; ++b) {
         const double value = B[b] + shift;
         if (value >= 0) continue;
@@ -123,60 +158,23 @@ struct FitPatch {
   }
 };
 
-/// Where no function of a patch is free, the mean of the other vertices of its cells that have one. For p = 1 their values are those of
-/// lambda_h: the patches of some of them may be known to other ranks only. For p >= 2 such a patch is a single cell, of this rank.
-struct FillEmpty {
-  VertexPatches patches;
-  View<const LocalIndex*> patch_of_vertex;
-  View<LocalIndex* [3]> vertices;
-  View<const LocalIndex*> cells;
-  Kokkos::View<LocalIndex**, Kokkos::LayoutRight> entries;
-  View<const LocalIndex*> column_of_entry;
-  method::Coefficients nodal;  ///< p = 1: values at the vertices; empty: means of patches
-  Metrics metric;
-  Matrix constant;  ///< (i, m): ∫ lambda_i phi_m
-  View<const double*> mean;
-  CellTable patch;  ///< out
-
-  KOKKOS_FUNCTION void operator()(int a) const {
-    if (mean(a) >= 0) return;
-    double sum = 0;
-    int count = 0;
-    for (LocalIndex e = patches.offset(a); e < patches.offset(a + 1); ++e)
-      for (int i = 0; i < 3; ++i) {
-        const LocalIndex k = patches.cell(e), entry = entries(k, i), b = patch_of_vertex(vertices(cells(k), i));
-        if (nodal.extent(0) > 0 ? column_of_entry(entry) < 0 : b < 0 || mean(b) < 0) continue;
-        sum += nodal.extent(0) > 0 ? nodal(entry) : mean(b);
-        ++count;
-      }
-    const int modes = constant.extent_int(1);
-    for (LocalIndex e = patches.offset(a); e < patches.offset(a + 1); ++e)
-      for (int m = 0; m < modes; ++m)
-        patch(patches.cell(e), patches.corner(e) * modes + m) =
-            count > 0 ? sum / count * metric(patches.cell(e)).det * constant(patches.corner(e), m) : 0;
-  }
-};
-
 class PatchwiseMultiplier final : public NonNegativeMultiplier {
  public:
-  explicit PatchwiseMultiplier(const method::PolynomialSpace& space)
+  PatchwiseMultiplier(const method::PolynomialSpace& space, const View<const bool*>& avoid)
       : space_(space),
+        avoid_(avoid),
         q_(space.flux_degree()),
         B_(reference::bernstein(space.basis().degree() - 1)),
         metric_(metrics(space.mesh(), space.cells())),
         patches_(vertex_patches(space.mesh(), space.cells())),
-        patch_of_vertex_("thixis::equilibration::patch_of_vertex", space.mesh().vertices),
         mean_("thixis::equilibration::patch_mean", patches_.size()),
         cell_mean_("thixis::equilibration::cell_mean", space.cells().extent(0)),
-        shared_("thixis::equilibration::shared_moments", space.cells().extent(0), space.basis().size()) {
-    Kokkos::deep_copy(patch_of_vertex_, -1);
-    const auto patch_of_vertex = patch_of_vertex_;
-    const auto vertex = patches_.vertex;
-    Kokkos::parallel_for(
-        "thixis::equilibration::patch_of_vertex", Kokkos::RangePolicy<>(0, patches_.size()),
-        KOKKOS_LAMBDA(int a) { patch_of_vertex(vertex(a)) = a; });
+        shared_("thixis::equilibration::shared_moments", space.cells().extent(0), space.basis().size()),
+        coefficients_("thixis::equilibration::patch_polynomial", patches_.size(), B_.size),
+        data_(multiplier_fits(space, patches_, metric_)),
+        extension_(space, patches_, data_),
+        generation_(extension_.generations()) {
     tabulate();
-    data_ = multiplier_fits(space, patches_, metric_);
     weigh_cells();
   }
 
@@ -203,12 +201,12 @@ class PatchwiseMultiplier final : public NonNegativeMultiplier {
           cell_mean(k) = known > 0 ? sum : -1;
         });
     const mesh::Mesh& mesh = space_.mesh();
-    Kokkos::parallel_for("thixis::equilibration::fit_multiplier", Kokkos::RangePolicy<>(0, patches_.size()),
-                         FitPatch{patches_, data_, mesh.coordinates, mesh.cell_vertices, space_.cells(), metric_, B_.degree, lattice_,
-                                  from_lattice_, hat_integral_, hat_modal_, at_entries, cell_mean_, patch, mean_});
-    Kokkos::parallel_for("thixis::equilibration::fill_empty_patches", Kokkos::RangePolicy<>(0, patches_.size()),
-                         FillEmpty{patches_, patch_of_vertex_, mesh.cell_vertices, space_.cells(), space_.coefficients().element_entries,
-                                   space_.numbering().column_of_entry, nodal_values(moments), metric_, constant_, mean_, patch});
+    const Kokkos::RangePolicy<> all_patches(0, patches_.size());
+    Kokkos::parallel_for("thixis::equilibration::fit_multiplier", all_patches, FitPatch{data_, at_entries, coefficients_, mean_});
+    extension_(coefficients_, mean_);
+    Kokkos::parallel_for("thixis::equilibration::limit_multiplier", all_patches,
+                         LimitPatch{patches_, data_, generation_, mesh.coordinates, mesh.cell_vertices, space_.cells(), metric_, B_.degree,
+                                    lattice_, from_lattice_, hat_integral_, hat_modal_, cell_mean_, avoid_, coefficients_, mean_, patch});
     const int modes = density.extent_int(1);
     Kokkos::parallel_for(
         "thixis::equilibration::sum_patches", Kokkos::RangePolicy<>(0, density.extent_int(0)), KOKKOS_LAMBDA(int K) {
@@ -217,22 +215,11 @@ class PatchwiseMultiplier final : public NonNegativeMultiplier {
   }
 
   std::size_t bytes() const override {
-    return sizeof(double) * (data_.fit.size() + data_.hat.size()) + sizeof(LocalIndex) * (data_.node.size() + patches_.cell.size());
+    return sizeof(double) * (data_.fit.size() + data_.hat.size() + coefficients_.size()) +
+           sizeof(LocalIndex) * (data_.node.size() + patches_.cell.size());
   }
 
  private:
-  /// lambda_h at the vertices for p = 1, with those of other ranks; empty otherwise.
-  method::Coefficients nodal_values(const algebra::Vector& moments) const {
-    if (B_.degree > 0) return {};
-    algebra::Vector values(space_.map());
-    {
-      const auto M = algebra::host_view(moments), D = algebra::host_view(space_.pairing());
-      const auto out = algebra::host_overwrite(values);
-      for (std::size_t l = 0; l < M.extent(0); ++l) out(l) = M(l) / D(l);
-    }
-    return space_.complete(values, method::Coefficients("thixis::equilibration::nothing", space_.coefficients().entries.size()));
-  }
-
   void tabulate() {
     const reference::Modal modal(q_ + 1);
     const int n = B_.size, modes = reference::dimension(q_), wide = modal.size();
@@ -241,21 +228,16 @@ class PatchwiseMultiplier final : public NonNegativeMultiplier {
     const auto T = bernstein_to_modal(B_, modal, wide);
     const Kokkos::View<double***, Kokkos::LayoutRight> hat_modal("thixis::equilibration::hat_modal", 3, modes, n);
     const auto host = Kokkos::create_mirror_view(hat_modal);
-    std::vector<double> integral, constant;
+    std::vector<double> integral;
     for (int i = 0; i < 3; ++i) {
       for (int m = 0; m < modes; ++m)
         for (int b = 0; b < n; ++b)
           for (int k = 0; k < wide; ++k) host(i, m, b) += modal.times_barycentric(i)[m * wide + k] * T[k * n + b];
       for (int b = 0; b < n; ++b) integral.push_back(host(i, 0, b) * std::sqrt(0.5));
-      for (int m = 0; m < modes; ++m) {
-        constant.push_back(0);
-        for (int b = 0; b < n; ++b) constant.back() += host(i, m, b);
-      }
     }
     Kokkos::deep_copy(hat_modal, host);
     hat_modal_ = hat_modal;
     hat_integral_ = matrix("thixis::equilibration::hat_integral", 3, n, integral);
-    constant_ = matrix("thixis::equilibration::hat_constant", 3, modes, constant);
   }
 
   /// The mean of lambda in a cell is that of the values moment / (1, psi_l) of its free functions, with weights (1, psi_l)_K: exact for
@@ -291,22 +273,24 @@ class PatchwiseMultiplier final : public NonNegativeMultiplier {
   }
 
   const method::PolynomialSpace& space_;
+  View<const bool*> avoid_;
   int q_;
   reference::Bernstein B_;  ///< of degree p - 1
   Metrics metric_;
   VertexPatches patches_;
-  View<LocalIndex*> patch_of_vertex_;
   View<double*> mean_, cell_mean_;
-  CellTable shared_, of_mean_;
+  CellTable shared_, of_mean_, coefficients_;
   Fits data_;
-  Matrix lattice_, from_lattice_, hat_integral_, constant_;
+  MultiplierExtension extension_;
+  View<const int*> generation_;
+  Matrix lattice_, from_lattice_, hat_integral_;
   Kokkos::View<const double***, Kokkos::LayoutRight> hat_modal_;
 };
 
 }  // namespace
 
-std::unique_ptr<NonNegativeMultiplier> patchwise_multiplier(const method::PolynomialSpace& space) {
-  return std::make_unique<PatchwiseMultiplier>(space);
+std::unique_ptr<NonNegativeMultiplier> patchwise_multiplier(const method::PolynomialSpace& space, const View<const bool*>& avoid) {
+  return std::make_unique<PatchwiseMultiplier>(space, avoid);
 }
 
 }  // namespace thixis::equilibration

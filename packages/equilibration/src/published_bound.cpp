@@ -7,11 +7,12 @@
 #include "sources.hpp"
 #include "stress.hpp"
 #include "tables.hpp"
+#include "tension_bounds.hpp"
 #include "thixis/algebra/tpetra.hpp"
 #include "thixis/equilibration/multilevel_flux.hpp"
 #include "thixis/equilibration/patch_flux.hpp"
 #include "thixis/mesh/ancestry.hpp"
-#include "thixis/mesh/host.hpp"
+#include "thixis/mesh/statistics.hpp"
 #include "thixis/reference/quadrature.hpp"
 
 namespace thixis::equilibration {
@@ -124,9 +125,9 @@ class Evaluation {
       : space_(space), problem_(problem), iterate_(iterate), gap_(gap), q_(space.flux_degree()) {
     double inverse = 0;
     for (int alpha = 0; alpha < problem.count; ++alpha) {
-      least_[alpha] = least_tension(space, *problem.tension[alpha]);
+      tension_[alpha] = tension_bounds(space, *problem.tension[alpha]);
       double least = 1e300;
-      for (const double mu : least_[alpha]) least = std::min(least, mu);
+      for (const double mu : tension_[alpha].least) least = std::min(least, mu);
       smallest_[alpha] = space.mesh().comm.min(least);
       inverse += 1 / smallest_[alpha];
     }
@@ -189,8 +190,9 @@ class Evaluation {
         alg_K("thixis::equilibration::alg", owned), lin_K("thixis::equilibration::lin", owned);
     std::vector<double> sum(5, 0.0);
     for (int alpha = 0; alpha < problem_.count; ++alpha) {
-      const Sources data = sources(space_, q_, *problem_.force[alpha], problem_.boundary[alpha], problem_.time, nullptr, least_[alpha]);
-      const auto stress = make_stress(space_, q_, *problem_.tension[alpha], least_[alpha]);
+      const Sources data =
+          sources(space_, q_, *problem_.force[alpha], problem_.boundary[alpha], problem_.time, nullptr, tension_[alpha].least);
+      const auto stress = make_stress(space_, q_, *problem_.tension[alpha], tension_[alpha]);
       space_.share(*iterate_.residual[alpha], moments);
       Kokkos::parallel_for("thixis::equilibration::represent", Kokkos::RangePolicy<>(0, cells), Represent{moments, from, r});
       lift(r, alg);
@@ -242,7 +244,7 @@ class Evaluation {
   const Iterate& iterate_;
   const Coefficients& gap_;
   int q_;
-  std::vector<double> least_[2];
+  TensionBounds tension_[2];
   double smallest_[2] = {1, 1}, constant_ = 0;
   struct {
     double all, disc, alg;
@@ -258,16 +260,8 @@ PublishedBound published_bound(const method::PolynomialSpace& space, const Conta
 }
 
 double friedrichs_of_box(const mesh::Mesh& mesh) {
-  const auto x = mesh::on_host(mesh).coordinates;
-  std::vector<double> corner(4, -1e300);  // upper, -lower
-  for (LocalIndex v = 0; v < mesh.vertices; ++v)
-    for (int d = 0; d < 2; ++d) {
-      corner[d] = std::max(corner[d], x(v, d));
-      corner[2 + d] = std::max(corner[2 + d], -x(v, d));
-    }
-  mesh.comm.max(corner);
-  const double a = corner[0] + corner[2], b = corner[1] + corner[3];
-  return 1 / (pi * std::hypot(1 / a, 1 / b));
+  const mesh::Box box = mesh::bounding_box(mesh);
+  return 1 / (pi * std::hypot(1 / box.side(0), 1 / box.side(1)));
 }
 
 }  // namespace thixis::equilibration

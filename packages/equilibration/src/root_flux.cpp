@@ -1,6 +1,7 @@
 #include "root_flux.hpp"
 
 #include <cmath>
+#include <numeric>
 
 #include "thixis/algebra/solver.hpp"
 #include "thixis/algebra/tpetra.hpp"
@@ -12,14 +13,66 @@
 namespace thixis::equilibration {
 namespace {
 
-/// Row of each vertex of a whole mesh, -1 where it is held.
-std::vector<LocalIndex> free_vertices(const mesh::Mesh& mesh, const std::vector<bool>& held) {
-  const auto tag = method::held_vertices(mesh, held);
+/// Row of each vertex of a whole mesh, -1 where it is held, or rests because nothing else of its piece is held.
+std::vector<LocalIndex> free_vertices(const mesh::Mesh& mesh, const std::vector<bool>& held, const std::vector<LocalIndex>& at_rest) {
+  auto tag = method::held_vertices(mesh, held);
+  for (const LocalIndex v : at_rest) tag[v] = 0;
   std::vector<LocalIndex> row(mesh.vertices);
   LocalIndex count = 0;
   for (LocalIndex v = 0; v < mesh.vertices; ++v) row[v] = tag[v] >= 0 ? -1 : count++;
   return row;
 }
+
+/// The pieces of a whole mesh that nothing holds: of every cell the number of its piece, -1 if that is held.
+struct FreePieces {
+  std::vector<int> of_cell;
+  std::vector<double> area;
+  std::vector<LocalIndex> vertex;  ///< one of each piece
+
+  FreePieces(const mesh::Mesh& mesh, const std::vector<bool>& held, const Metrics& metric) : of_cell(mesh.cells, -1) {
+    const auto host = mesh::on_host(mesh);
+    const auto tag = method::held_vertices(mesh, held);
+    const auto det = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), metric);
+    std::vector<LocalIndex> above(mesh.vertices);  // towards the one that stands for the piece
+    std::iota(above.begin(), above.end(), 0);
+    const auto top = [&](LocalIndex v) {
+      while (above[v] != v) v = above[v] = above[above[v]];
+      return v;
+    };
+    for (LocalIndex K = 0; K < mesh.cells; ++K)
+      for (int i = 1; i < 3; ++i) above[top(host.cell_vertices(K, i))] = top(host.cell_vertices(K, 0));
+    std::vector<bool> is_held(mesh.vertices, false);
+    for (LocalIndex v = 0; v < mesh.vertices; ++v)
+      if (tag[v] >= 0) is_held[top(v)] = true;
+    std::vector<int> piece(mesh.vertices, -1);
+    for (LocalIndex K = 0; K < mesh.cells; ++K) {
+      const LocalIndex v = top(host.cell_vertices(K, 0));
+      if (is_held[v]) continue;
+      if (piece[v] < 0) {
+        piece[v] = static_cast<int>(area.size());
+        area.push_back(0);
+        vertex.push_back(v);
+      }
+      of_cell[K] = piece[v];
+      area[piece[v]] += det(K).det / 2;
+    }
+  }
+
+  /// r without its means on these pieces; the norm of what it loses.
+  double take_means(const CellTable& r, const Metrics& metric) const {
+    const auto values = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), r);
+    const auto det = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), metric);
+    std::vector<double> mean(area.size(), 0.0);
+    for (std::size_t K = 0; K < of_cell.size(); ++K)
+      if (of_cell[K] >= 0) mean[of_cell[K]] += std::sqrt(0.5) * values(K, 0) / area[of_cell[K]];
+    for (std::size_t K = 0; K < of_cell.size(); ++K)
+      if (of_cell[K] >= 0) values(K, 0) -= std::sqrt(0.5) * det(K).det * mean[of_cell[K]];
+    Kokkos::deep_copy(r, values);
+    double square = 0;
+    for (std::size_t i = 0; i < area.size(); ++i) square += area[i] * mean[i] * mean[i];
+    return std::sqrt(square);
+  }
+};
 
 /// moments(k, i) = ∫_K r lambda_i from modal coefficients of r.
 struct HatMoments {
@@ -69,12 +122,14 @@ struct RootFlux::Impl {
   View<const LocalIndex*> cells;
   Metrics metric;
   PatchFlux patches;
+  FreePieces pieces;
   std::vector<LocalIndex> row;
   algebra::MatrixPtr A;
   std::unique_ptr<algebra::Solver> solver;  ///< none where every vertex is held
   Matrix first_row;
   Kokkos::View<double***, Kokkos::LayoutRight> times;
   CellTable moments, density, target;
+  CellTable without_mean;  ///< of length 0 where every piece is held
   Kokkos::View<double* [3], Kokkos::LayoutRight> rho;
 
   Impl(std::shared_ptr<const mesh::Mesh> whole, const std::vector<bool>& held, int q)
@@ -83,10 +138,12 @@ struct RootFlux::Impl {
         cells(method::owned_cells(*mesh)),
         metric(metrics(*mesh, cells)),
         patches(*mesh, cells, held, q),
-        row(free_vertices(*mesh, held)),
+        pieces(*mesh, held, metric),
+        row(free_vertices(*mesh, held, pieces.vertex)),
         moments("thixis::equilibration::hat_moments", mesh->cells, 3),
         density("thixis::equilibration::root_density", mesh->cells, 3 * n),
         target("thixis::equilibration::root_target", mesh->cells, 2 * n),
+        without_mean("thixis::equilibration::without_mean", pieces.area.empty() ? 0 : mesh->cells, n),
         rho("thixis::equilibration::rho", mesh->cells) {
     const reference::Modal modal(q + 1);
     const int wide = modal.size();
@@ -174,12 +231,24 @@ RootFlux::RootFlux(std::shared_ptr<const mesh::Mesh> mesh, const std::vector<boo
     : impl_(std::make_unique<Impl>(std::move(mesh), held, q)) {}
 RootFlux::~RootFlux() = default;
 
-void RootFlux::operator()(const ConstCellTable& r, const CellTable& sigma) const {
+double RootFlux::operator()(const ConstCellTable& given, const CellTable& sigma) const {
   const Impl& in = *impl_;
+  ConstCellTable r = given;
+  double left = 0;
+  if (!in.pieces.area.empty()) {
+    const CellTable copy = in.without_mean;
+    Kokkos::parallel_for(
+        "thixis::equilibration::copy_density", Kokkos::RangePolicy<>(0, copy.extent_int(0)), KOKKOS_LAMBDA(int K) {
+          for (int k = 0; k < copy.extent_int(1); ++k) copy(K, k) = given(K, k);
+        });
+    left = in.pieces.take_means(copy, in.metric);
+    r = copy;
+  }
   in.solve(r);
   Kokkos::parallel_for("thixis::equilibration::root_sources", Kokkos::RangePolicy<>(0, in.mesh->cells),
                        RootSources{r, in.metric, in.times, in.rho, in.density, in.target});
   in.patches({in.density, in.target, {}}, sigma);
+  return left;
 }
 
 std::size_t RootFlux::bytes() const {

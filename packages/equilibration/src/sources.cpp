@@ -128,17 +128,6 @@ std::vector<bool> held_tags(const method::BoundaryValues& boundary) {
   return held;
 }
 
-std::vector<double> least_tension(const method::PolynomialSpace& space, const scene::Field& tension) {
-  const LocalIndex owned = space.mesh().owned_cells;
-  if (const double* constant = tension.constant()) return std::vector<double>(owned, *constant);
-  const auto mu =
-      Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), method::tension_at_points(space.mesh(), space.quadrature(), tension));
-  const auto offset = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), space.quadrature().offset);
-  std::vector<double> least(owned);
-  for (LocalIndex K = 0; K < owned; ++K) least[K] = *std::min_element(mu.data() + offset(K), mu.data() + offset(K + 1));
-  return least;
-}
-
 Sources sources(const method::PolynomialSpace& space, int q, const scene::Field& force, const method::BoundaryValues& boundary, double time,
                 const CutOscillation* cut_cells, const std::vector<double>& least_tension) {
   const mesh::Mesh& mesh = space.mesh();

@@ -24,9 +24,6 @@ struct Sources {
 Sources sources(const method::PolynomialSpace& space, int q, const scene::Field& force, const method::BoundaryValues& boundary, double time,
                 const CutOscillation* cut_cells, const std::vector<double>& least_tension);
 
-/// The least value of the tension at the quadrature points of each owned cell. Collective; throws InputError where it is not positive.
-std::vector<double> least_tension(const method::PolynomialSpace& space, const scene::Field& tension);
-
 /// Longest side of a cell, and of each owned cell.
 double diameter(const mesh::HostMesh& mesh, LocalIndex K);
 std::vector<double> diameters(const mesh::Mesh& mesh);

@@ -1,8 +1,11 @@
 #include "thixis/equilibration/step_bound.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "bound_parts.hpp"
+#include "change_of_force.hpp"
 #include "tables.hpp"
 #include "thixis/algebra/tpetra.hpp"
 #include "thixis/core/error.hpp"
@@ -41,31 +44,6 @@ struct Rate {
   }
 };
 
-/// ∫ |f(t) - f(end)|² over the step and the owned cells: by Gauss' rule with three points in time, exact where f is of degree 2.
-double change_of_force(const method::PolynomialSpace& space, const scene::Field& force, double begin, double end) {
-  constexpr double place[3] = {0.1127016653792583, 0.5, 0.8872983346207417}, weight[3] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
-  const auto& quadrature = space.quadrature();
-  const LocalIndex owned = space.mesh().owned_cells;
-  const auto metric = on_host(metrics(space.mesh(), space.cells()));
-  const View<double*> at_end("thixis::equilibration::force_at_end", quadrature.largest_block),
-      between("thixis::equilibration::force_between", quadrature.largest_block);
-  double sum = 0;
-  method::for_each_block(quadrature, [&](const method::QuadratureBlock& block) {
-    if (block.first >= owned) return;
-    method::evaluate(force, end, block, at_end);
-    const auto offset = on_host(block.offset);
-    const auto weights = on_host(block.weight);
-    const auto last = on_host(at_end);
-    for (int g = 0; g < 3; ++g) {
-      method::evaluate(force, begin + place[g] * (end - begin), block, between);
-      const auto now = on_host(between);
-      for (LocalIndex c = 0; c < block.cells && block.first + c < owned; ++c)
-        for (int i = offset(c); i < offset(c + 1); ++i) sum += weight[g] * weights(i) * squared(now(i) - last(i));
-    }
-  });
-  return (end - begin) * sum;
-}
-
 bool steady(const std::vector<scene::FieldPtr>& fields) {
   for (const auto& field : fields)
     if (field && !field->steady()) return false;
@@ -94,11 +72,13 @@ struct StepBound::Impl : BoundParts {
   FeasiblePair::Bulge bulge;
   View<double* [2]> change_of_lift;
   double force_change[2] = {0, 0};  ///< ∫ |f(t) - f(t_n)|²
+  bool resolved = true;             ///< ForceChange
 
   // the last iterate
   Iterate iterate;
   FeasiblePair::Way way;
   CellTable rate[2], remaining, extra;
+  double left_disc[2] = {0, 0}, left_alg[2] = {0, 0}, left_lin[2] = {0, 0};  ///< norms of means that no flux takes away
   bool has_cut_off[2] = {false, false};
   View<double*> change[2], contact_before, move_change;
   struct Square {
@@ -106,19 +86,22 @@ struct StepBound::Impl : BoundParts {
     double bound() const { return remainder + std::sqrt(remainder * remainder + energy); }
   } step;
   complementarity::Estimate eta;
+  std::array<double, 3> parts_of_step;  ///< discretization, linearization, algebraic without the remainder
   Errors errors_of_step;
 
   // since the start
   Square all;
-  double disc2 = 0, lin2 = 0, alg2 = 0;
+  double disc2 = 0, lin2 = 0, alg2 = 0, time2 = 0;
+  complementarity::Promise promise = complementarity::Promise::guaranteed;  ///< the weakest of all steps
 
   Impl(const method::PolynomialSpace& of, const ContactProblem& contact, const mesh::Hierarchy& hierarchy, int level,
        std::optional<double> constant)
       : BoundParts(of, contact, hierarchy, level), friedrichs(constant), functions(of.basis().size()) {
     if (!patches && q == space.basis().degree())
       throw core::InputError("scene/model: there is no bound in time for this method; write fem or hho under method/name.");
-    bool all_held = true;
-    for (const bool is : held) all_held = all_held && is;
+    const bool all_held = std::all_of(held.begin(), held.end(), [](bool is) { return is; });
+    if (friedrichs && std::none_of(held.begin(), held.end(), [](bool is) { return is; }))
+      throw core::InputError("stopping/friedrichs constant: there is none where nothing is held; leave it out.");
     if (!friedrichs && all_held) friedrichs = friedrichs_of_box(mesh);
     for (int alpha = 0; alpha < problem.count; ++alpha) {
       steady_force = steady_force && problem.force[alpha]->steady();
@@ -181,7 +164,8 @@ struct StepBound::Impl : BoundParts {
 /// sigma_disc + sigma_lin + sigma_alg in equilibrium with f(t_n) - ∂_t s_N and lambda^, and |mu^{1/2} grad (u_h^n - u_h^{n-1})|_K.
 void StepBound::Impl::equilibrate(int alpha, const Vector& cut_off) {
   Membrane& m = membrane[alpha];
-  lift_residual(*iterate.residual[alpha], m.r_alg, m.sigma_alg, m.has_alg);
+  left_alg[alpha] = lift_residual(*iterate.residual[alpha], m.r_alg, m.sigma_alg, m.has_alg);
+  left_lin[alpha] = 0;
   represent(cut_off, m.r_lin, has_cut_off[alpha]);
   if (density_of(1 / tau(), way.closing[alpha], 0, {})) {
     const CellTable sum = remaining, r_lin = m.r_lin;
@@ -189,11 +173,11 @@ void StepBound::Impl::equilibrate(int alpha, const Vector& cut_off) {
         "thixis::equilibration::add_cut_off", Kokkos::RangePolicy<>(0, owned), KOKKOS_LAMBDA(int K) {
           for (int i = 0; i < r_lin.extent_int(1); ++i) sum(K, i) += r_lin(K, i);
         });
-    lift(sum, m.sigma_lin);
+    left_lin[alpha] = lift(sum, m.sigma_lin);
     m.has_lin = true;
   } else {
     m.has_lin = has_cut_off[alpha];
-    if (m.has_lin) lift(m.r_lin, m.sigma_lin);
+    if (m.has_lin) left_lin[alpha] = lift(m.r_lin, m.sigma_lin);
     else Kokkos::deep_copy(m.sigma_lin, 0);
   }
 
@@ -203,9 +187,12 @@ void StepBound::Impl::equilibrate(int alpha, const Vector& cut_off) {
   discretization_flux(iterate, alpha, rate[alpha]);
   if (patches) {
     if (sigma_before[alpha].extent(0) > 0) add(sigma_before[alpha], m.sigma_disc);
-  } else if (density_of(1 / tau(), way.averages[alpha], -1 / tau(), moved_before[alpha])) {
-    lift(remaining, extra);
-    add(extra, m.sigma_disc);
+  } else {
+    left_disc[alpha] = 0;
+    if (density_of(1 / tau(), way.averages[alpha], -1 / tau(), moved_before[alpha])) {
+      left_disc[alpha] = lift(remaining, extra);
+      add(extra, m.sigma_disc);
+    }
   }
 
   m.stress->norms_between(iterate.u[alpha], m.w, before[alpha], w_before[alpha], fluxes(alpha), m.norms, change[alpha]);
@@ -304,7 +291,7 @@ void StepBound::Impl::sum_up() {
   }
   comm.sum(sum);
 
-  double remainder2 = 0, balanced2 = 0, of_time2 = 0;
+  double remainder2 = 0, remainder_disc2 = 0, balanced2 = 0, of_time2 = 0;
   for (int alpha = 0; alpha < problem.count; ++alpha) {
     const double of_force = std::sqrt(sum[force_1 + alpha]);
     const double rho =
@@ -313,22 +300,29 @@ void StepBound::Impl::sum_up() {
     const double factor = friedrichs ? *friedrichs * *friedrichs / least[alpha] : 0;
     balanced2 += factor * squared(rho);
     of_time2 += (friedrichs ? factor : 4 * length) * squared(of_force);
-    if (!friedrichs) remainder2 += length * squared(rho);
+    const double unbalanced = (friedrichs ? 0 : std::sqrt(length) * rho) + length * left_disc[alpha];
+    remainder2 += squared(unbalanced + length * (left_lin[alpha] + left_alg[alpha]));
+    remainder_disc2 += squared(unbalanced);
   }
-  const double N = std::sqrt(balanced2), R = std::sqrt(remainder2);
+  const double N = std::sqrt(balanced2), R = std::sqrt(remainder2), R_disc = std::sqrt(remainder_disc2);
   const double together = std::max(0.0, sum[contact] + sum[contact_then] + 2 * bulge_mean * sum[of_bulge]);
   step.energy = squared(std::sqrt(length * sum[of_flux]) + N) + length * (sum[of_pair] + together);
   step.remainder = R;
   eta = {};
   eta.evident = space.conforming();  // the proof is for continuous elements
   eta.total = step.bound();
-  eta.discretization = std::sqrt(length * sum[of_disc]) + N + 2 * R + std::sqrt(length * sum[of_rest]) +
-                       std::sqrt(length * std::abs(together - sum[contact_nodes]));
-  eta.linearization = std::sqrt(length * sum[of_lin]) + std::sqrt(length * sum[of_nodes]) + std::sqrt(length * sum[contact_nodes]);
-  eta.algebraic = std::sqrt(length * sum[of_alg]);
+  eta.promise = complementarity::Promise::up_to_quadrature;
+  parts_of_step = {
+      std::sqrt(length * sum[of_disc]) + N + std::sqrt(length * sum[of_rest]) + std::sqrt(length * std::abs(together - sum[contact_nodes])),
+      std::sqrt(length * sum[of_lin]) + std::sqrt(length * sum[of_nodes]) + std::sqrt(length * sum[contact_nodes]),
+      std::sqrt(length * sum[of_alg])};
+  eta.discretization = parts_of_step[0] + 2 * R_disc;
+  eta.linearization = parts_of_step[1] + 2 * length * std::hypot(left_lin[0], left_lin[1]);
+  eta.algebraic = parts_of_step[2] + 2 * length * std::hypot(left_alg[0], left_alg[1]);
   find_worst_cells(eta);
   errors_of_step.time = std::sqrt(length * sum[of_change]) + std::sqrt(of_time2) + std::sqrt(length * std::max(0.0, sum[contact_then]));
-  errors_of_step.space = std::max(0.0, N + 2 * R - std::sqrt(of_time2)) + std::sqrt(length * sum[rest_at_end]) +
+  eta.time = errors_of_step.time;
+  errors_of_step.space = std::max(0.0, N + 2 * R_disc - std::sqrt(of_time2)) + std::sqrt(length * sum[rest_at_end]) +
                          std::sqrt(length * std::abs(sum[contact] - sum[contact_nodes]));
 }
 
@@ -369,7 +363,7 @@ void StepBound::start(double time, const Coefficients (&u)[2], const std::array<
     square += squared(distance[alpha] + (initial[alpha] ? std::sqrt(in.space.l2_error(u[alpha], *initial[alpha], time)) : 0));
   in.all = {square, 0};
   in.disc2 = square;
-  in.lin2 = in.alg2 = 0;
+  in.lin2 = in.alg2 = in.time2 = 0;
 }
 
 /// y jumps by J at most: |y + J|² <= |y|² + 2 |y| J + J².
@@ -382,6 +376,7 @@ void StepBound::take_over(const StepBound& coarse, double time, const Coefficien
   in.disc2 = from.disc2 + jump * jump;
   in.lin2 = from.lin2;
   in.alg2 = from.alg2;
+  in.time2 = from.time2;
 }
 
 void StepBound::begin(double begin, double end, const Coefficients (&before)[2]) {
@@ -402,6 +397,7 @@ void StepBound::begin(double begin, double end, const Coefficients (&before)[2])
   then.evaluate(before, CellTable("thixis::equilibration::no_multiplier", in.owned, 0), in.q, in.parts_before);
   for (int alpha = 0; alpha < in.problem.count; ++alpha) {
     in.moved_before[alpha] = in.sigma_before[alpha] = {};
+    in.left_disc[alpha] = 0;
     const auto &averages = in.way_before.averages[alpha], &closing = in.way_before.closing[alpha];
     if (averages.extent(0) > 0 && closing.extent(0) > 0) {
       Kokkos::parallel_for(
@@ -412,7 +408,7 @@ void StepBound::begin(double begin, double end, const Coefficients (&before)[2])
     in.moved_before[alpha] = averages.extent(0) > 0 ? averages : closing;
     if (in.patches && in.density_of(-1 / in.tau(), in.moved_before[alpha], 0, {})) {
       in.sigma_before[alpha] = CellTable("thixis::equilibration::sigma_before", in.owned, in.flux);
-      in.lift(in.remaining, in.sigma_before[alpha]);
+      in.left_disc[alpha] = in.lift(in.remaining, in.sigma_before[alpha]);
     }
   }
   in.change_of_lift = in.feasible->change_of_lift(&then);
@@ -420,10 +416,12 @@ void StepBound::begin(double begin, double end, const Coefficients (&before)[2])
   if (!in.steady_boundary) in.bulge = in.feasible->at(0.5 * (begin + end))->bulge(then, *in.feasible);
   if (in.steady_force) return;
   if (in.problem.time != end) in.set_sources(end);
-  in.comm.together([&] {
-    for (int alpha = 0; alpha < in.problem.count; ++alpha)
-      in.force_change[alpha] = in.problem.force[alpha]->steady() ? 0 : change_of_force(in.space, *in.problem.force[alpha], begin, end);
-  });
+  in.resolved = true;
+  for (int alpha = 0; alpha < in.problem.count; ++alpha) {
+    const auto [square, resolved] = change_of_force(in.space, *in.problem.force[alpha], begin, end);
+    in.force_change[alpha] = square;
+    in.resolved = in.resolved && resolved;
+  }
 }
 
 complementarity::Estimate StepBound::operator()(const Iterate& iterate) {
@@ -446,6 +444,7 @@ complementarity::Estimate StepBound::operator()(const Iterate& iterate) {
   return in.eta;
 }
 
+bool StepBound::resolved() const { return impl_->resolved; }
 const GuaranteedBound::CellParts& StepBound::cells() const { return impl_->cells; }
 
 /// sum_up() has all of it but the flux at the end of the step.
@@ -470,9 +469,11 @@ void StepBound::accept() {
   Impl& in = *impl_;
   in.all.energy += in.step.energy;
   in.all.remainder += in.step.remainder;
-  in.disc2 += squared(in.eta.discretization - 2 * in.step.remainder);
-  in.lin2 += squared(in.eta.linearization);
-  in.alg2 += squared(in.eta.algebraic);
+  in.disc2 += squared(in.parts_of_step[0]);
+  in.lin2 += squared(in.parts_of_step[1]);
+  in.alg2 += squared(in.parts_of_step[2]);
+  in.time2 += squared(in.errors_of_step.time);
+  in.promise = weakest(in.promise, in.eta.promise);
 }
 
 complementarity::Estimate StepBound::so_far() const {
@@ -482,18 +483,20 @@ complementarity::Estimate StepBound::so_far() const {
   eta.discretization = std::sqrt(in.disc2) + 2 * in.all.remainder;
   eta.linearization = std::sqrt(in.lin2);
   eta.algebraic = std::sqrt(in.alg2);
+  eta.time = std::sqrt(in.time2);
+  eta.promise = in.promise;
   return eta;
 }
 
 const std::vector<std::string>& StepBound::names_of_sums() {
-  static const std::vector<std::string> names = {"bound", "bound_remainder", "bound_discretization", "bound_linearization",
-                                                 "bound_algebraic"};
+  static const std::vector<std::string> names = {"bound",           "bound_remainder", "bound_discretization", "bound_linearization",
+                                                 "bound_algebraic", "bound_time",      "bound_promise"};
   return names;
 }
 
 std::map<std::string, double> StepBound::sums() const {
   const Impl& in = *impl_;
-  const double values[] = {in.all.energy, in.all.remainder, in.disc2, in.lin2, in.alg2};
+  const double values[] = {in.all.energy, in.all.remainder, in.disc2, in.lin2, in.alg2, in.time2, static_cast<double>(in.promise)};
   std::map<std::string, double> sums;
   for (std::size_t i = 0; i < names_of_sums().size(); ++i) sums[names_of_sums()[i]] = values[i];
   return sums;
@@ -501,8 +504,10 @@ std::map<std::string, double> StepBound::sums() const {
 
 void StepBound::restore(const std::map<std::string, double>& sums) {
   Impl& in = *impl_;
-  double* const values[] = {&in.all.energy, &in.all.remainder, &in.disc2, &in.lin2, &in.alg2};
+  double promise = 0;
+  double* const values[] = {&in.all.energy, &in.all.remainder, &in.disc2, &in.lin2, &in.alg2, &in.time2, &promise};
   for (std::size_t i = 0; i < names_of_sums().size(); ++i) *values[i] = sums.at(names_of_sums()[i]);
+  in.promise = static_cast<complementarity::Promise>(promise);
 }
 
 GuaranteedBound::Fluxes StepBound::fluxes(int alpha) const {

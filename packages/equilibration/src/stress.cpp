@@ -153,8 +153,8 @@ class ConstantStress final : public StressBase {
 /// A rule for every cell with the tension and the modal polynomials at its points.
 struct Points {
   method::CellQuadrature quadrature;
-  View<const double*> mu;
-  Matrix at_rule, at_own;  ///< (point, mode)
+  View<const double*> mu, inverse;  ///< 1/mu from above
+  Matrix at_rule, at_own;           ///< (point, mode)
 
   KOKKOS_INLINE_FUNCTION int count(LocalIndex k) const { return static_cast<int>(quadrature.offset(k + 1) - quadrature.offset(k)); }
   KOKKOS_INLINE_FUNCTION const double* phi(LocalIndex k, int q) const {
@@ -166,6 +166,7 @@ struct Points {
     return own < 0 ? quadrature.rule_weight(q) : quadrature.own_weight(quadrature.own_offset(own) + q);
   }
   KOKKOS_INLINE_FUNCTION double tension(LocalIndex k, int q) const { return mu(quadrature.offset(k) + q); }
+  KOKKOS_INLINE_FUNCTION double inverse_tension(LocalIndex k, int q) const { return inverse(quadrature.offset(k) + q); }
 };
 
 struct FillVarying {
@@ -206,7 +207,7 @@ struct VaryingNorms {
     add(sigma.lin, K, rest);
     for (int q = 0; q < points.count(K); ++q) {
       const double* const phi = points.phi(K, q);
-      const double mu = points.tension(K, q), weight = points.weight(K, q) / mu;
+      const double mu = points.tension(K, q), weight = points.weight(K, q) * points.inverse_tension(K, q);
       double v[2][2] = {};
       for (int d = 0; d < 2; ++d) {
         double slope = 0;
@@ -230,10 +231,10 @@ struct VaryingNorms {
 
 class VaryingStress final : public StressBase {
  public:
-  VaryingStress(const method::PolynomialSpace& space, int q, const scene::Field& tension, const std::vector<double>& least)
+  VaryingStress(const method::PolynomialSpace& space, int q, const TensionBounds& bounds)
       : StressBase(space), factor_("thixis::equilibration::inverse_root_tension", owned_) {
     const auto host = Kokkos::create_mirror_view(factor_);
-    for (LocalIndex K = 0; K < owned_; ++K) host(K) = 1 / std::sqrt(least[K]);
+    for (LocalIndex K = 0; K < owned_; ++K) host(K) = 1 / std::sqrt(bounds.least[K]);
     Kokkos::deep_copy(factor_, host);
     const auto& quadrature = space.quadrature();
     const reference::Modal modal(std::max(q + 1, space.basis().degree()));
@@ -241,8 +242,8 @@ class VaryingStress final : public StressBase {
       const auto xi = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), points);
       return matrix(label, xi.extent_int(0), modal.size(), modal.values(xi.extent_int(0), xi.data()));
     };
-    points_ = {quadrature, method::tension_at_points(space.mesh(), quadrature, tension),
-               table("thixis::equilibration::at_rule", quadrature.rule_xi), table("thixis::equilibration::at_own", quadrature.own_xi)};
+    points_ = {quadrature, bounds.at_points, bounds.inverse, table("thixis::equilibration::at_rule", quadrature.rule_xi),
+               table("thixis::equilibration::at_own", quadrature.own_xi)};
   }
   void operator()(const method::Coefficients& u, const CellTable& w) const override {
     Kokkos::parallel_for("thixis::equilibration::stress_varying", Kokkos::RangePolicy<>(0, cells_), FillVarying{of(u), points_, w});
@@ -272,10 +273,9 @@ class VaryingStress final : public StressBase {
 
 }  // namespace
 
-std::unique_ptr<Stress> make_stress(const method::PolynomialSpace& space, int q, const scene::Field& tension,
-                                    const std::vector<double>& least) {
+std::unique_ptr<Stress> make_stress(const method::PolynomialSpace& space, int q, const scene::Field& tension, const TensionBounds& bounds) {
   if (const double* constant = tension.constant()) return std::make_unique<ConstantStress>(space, *constant);
-  return std::make_unique<VaryingStress>(space, q, tension, least);
+  return std::make_unique<VaryingStress>(space, q, bounds);
 }
 
 }  // namespace thixis::equilibration

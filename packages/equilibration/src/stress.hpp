@@ -1,6 +1,7 @@
 #pragma once
 #include <memory>
 
+#include "tension_bounds.hpp"
 #include "thixis/equilibration/cell_fields.hpp"
 #include "thixis/method/polynomial_space.hpp"
 
@@ -28,8 +29,6 @@ class Stress {
                              const ConstCellTable& w_before, const Fluxes& sigma, const Norms& norm, const View<double*>& change) const = 0;
 };
 
-/// `least`: of the tension in each owned cell.
-std::unique_ptr<Stress> make_stress(const method::PolynomialSpace& space, int q, const scene::Field& tension,
-                                    const std::vector<double>& least);
+std::unique_ptr<Stress> make_stress(const method::PolynomialSpace& space, int q, const scene::Field& tension, const TensionBounds& bounds);
 
 }  // namespace thixis::equilibration

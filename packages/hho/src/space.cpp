@@ -118,7 +118,7 @@ class HybridSpace final : public method::PolynomialSpace {
   int flux_degree() const override { return degree() - 1; }
 
   void native_flux(const scene::Field& tension, const scene::Field&, const Coefficients& u, const BoundaryValues& boundary, double t,
-                   const View<double**>& sigma) const override {
+                   const method::HeldSource&, const View<double**>& sigma) const override {
     if (!flux_tables_) flux_tables_ = flux_tables(reference_);
     const auto density = method::flux_density(mesh_, quadrature_, degree() - 1, tension);
     const Moments traction("thixis::hho::traction", faces_.size(), degree());

@@ -1,13 +1,13 @@
-#include <gmsh.h>
-
 #include <algorithm>
-#include <cfenv>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <limits>
-#include <unordered_map>
+#include <new>
+#include <numeric>
+#include <tuple>
 
+#include "msh_content.hpp"
 #include "thixis/core/error.hpp"
 #include "triangulation.hpp"
 
@@ -17,178 +17,182 @@ namespace {
 using core::FileError;
 using core::InputError;
 
-constexpr int line = 1, triangle = 2;  // element types of Gmsh with straight sides
-
-/// Gmsh between initialize and finalize, silent, not reading the user's settings, and not stopped by floating-point traps.
-class Session {
- public:
-  Session() {
-    std::feholdexcept(&environment_);
-    gmsh::initialize(0, nullptr, false);
-    gmsh::option::setNumber("General.Terminal", 0);
-    gmsh::option::setNumber("General.Verbosity", 0);
-  }
-  ~Session() {
-    gmsh::finalize();
-    std::fesetenv(&environment_);
-  }
-  Session(const Session&) = delete;
-  Session& operator=(const Session&) = delete;
-
- private:
-  std::fenv_t environment_;
-};
-
-/// Looks for the version before Gmsh sees the file: it would take any other format, and scripts, too.
-void require_format(const std::string& path, const std::string& name) {
-  std::error_code ignored;
-  std::ifstream file(path, std::ios::binary);
-  if (std::filesystem::is_directory(path, ignored))
-    throw FileError(name + " is a folder; write the name of a Gmsh mesh relative to the deck.");
-  if (!file || !std::filesystem::is_regular_file(path, ignored))
-    throw FileError(name + " can not be opened; write the name of a Gmsh mesh relative to the deck.");
-  std::string head(1 << 16, '\0');
-  file.read(head.data(), static_cast<std::streamsize>(head.size()));
-  head.resize(static_cast<std::size_t>(file.gcount()));
-
-  const std::string section = "$MeshFormat";
-  const auto start = head.find(section);
-  const std::string how = "; save it as Gmsh mesh in format 4.1 or 2.2 (gmsh -save -format msh41).";
-  if (start == std::string::npos) throw InputError(name + " is not a Gmsh mesh" + how);
-  const auto first = head.find_first_not_of(" \t\r\n", start + section.size());
-  const std::string version = first == std::string::npos ? "" : head.substr(first, head.find_first_of(" \t\r\n", first) - first);
-  if (version != "2.2" && version != "4.1") throw InputError(name + " has format " + version + how);
+std::string bytes_of(const std::string& path, const std::string& name) {
+  const std::string instead = "; write the name of a Gmsh mesh relative to the deck.";
+  std::error_code failed;
+  if (std::filesystem::is_directory(path, failed)) throw FileError(name + " is a folder" + instead);
+  std::ifstream file;
+  if (std::filesystem::is_regular_file(path, failed)) file.open(path, std::ios::binary);
+  if (!file.is_open()) throw FileError(name + " can not be opened" + instead);
+  const std::uintmax_t size = std::filesystem::file_size(path, failed), most = std::uintmax_t(16) << 30;
+  if (failed || size > most)
+    throw FileError(name + " is larger than 16 GB; the coarsest mesh is held by every rank: give a coarser one and more refinements.");
+  std::string bytes(size, '\0');
+  if (!file.read(bytes.data(), static_cast<std::streamsize>(size))) throw FileError(name + " can not be read to its end; copy it anew.");
+  return bytes;
 }
 
-/// Elements of one type and dimension: `type` of Gmsh, or the error.
-std::vector<std::size_t> nodes_of(int dimension, int entity, int type, const std::string& name) {
-  std::vector<int> types;
-  std::vector<std::vector<std::size_t>> elements, nodes;
-  gmsh::model::mesh::getElements(types, elements, nodes, dimension, entity);
-  std::vector<std::size_t> found;
-  for (std::size_t k = 0; k < types.size(); ++k) {
-    if (types[k] != type) {
-      std::string kind;
-      int dim, order, count, corners;
-      std::vector<double> coordinates;
-      gmsh::model::mesh::getElementProperties(types[k], kind, dim, order, count, coordinates, corners);
-      throw InputError(name + " has elements of the kind '" + kind +
-                       "'; give a plane mesh of straight triangles (in Gmsh: element order 1, no recombination).");
-    }
-    found.insert(found.end(), nodes[k].begin(), nodes[k].end());
-  }
-  return found;
+void require_all_parts(const MshContent& content, const std::string& name) {
+  const auto count = std::distance(content.parts.lower_bound(1), content.parts.end());
+  if (count >= content.count_of_parts) return;
+  throw InputError(name + " holds " + std::to_string(count) + " of the " + std::to_string(content.count_of_parts) +
+                   " parts of a partitioned mesh; give the whole mesh in one file (in Gmsh: Mesh.PartitionSplitMeshFiles = 0).");
 }
 
-/// The vertices of the triangles, numbered in the order of their node tags.
+void require_different_elements(std::vector<std::int64_t> numbers, const std::string& name) {
+  if (!std::is_sorted(numbers.begin(), numbers.end())) std::sort(numbers.begin(), numbers.end());
+  const auto twice = std::adjacent_find(numbers.begin(), numbers.end());
+  if (twice != numbers.end())
+    throw InputError(name + " has two elements with the number " + std::to_string(*twice) + "; number them differently, or save it anew.");
+}
+
+/// Format 2.2 writes a triangle once for each physical group of its surface: keeps the first.
+void drop_copies(std::vector<MshContent::Triangle>& triangles) {
+  const auto of_one_group = [&](const MshContent::Triangle& triangle) { return triangle.group == triangles.front().group; };
+  if (std::all_of(triangles.begin(), triangles.end(), of_one_group)) return;
+
+  using Key = std::tuple<std::array<std::int64_t, 3>, int, std::size_t>;  // nodes, surface, position
+  std::vector<Key> keys;
+  keys.reserve(triangles.size());
+  for (const auto& triangle : triangles) {
+    keys.emplace_back(triangle.nodes, triangle.surface, keys.size());
+    auto& nodes = std::get<0>(keys.back());
+    std::sort(nodes.begin(), nodes.end());
+  }
+  std::sort(keys.begin(), keys.end());
+  std::vector<bool> copy(triangles.size(), false);
+  for (std::size_t k = 1, first = 0; k < keys.size(); ++k) {
+    const auto& [nodes, surface, position] = keys[k];
+    if (nodes != std::get<0>(keys[first]) || surface != std::get<1>(keys[first])) first = k;
+    else copy[position] = triangles[position].group != triangles[std::get<2>(keys[k - 1])].group;
+  }
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < triangles.size(); ++k)
+    if (!copy[k]) triangles[kept++] = triangles[k];
+  triangles.resize(kept);
+}
+
+/// The nodes of the file in the order of their numbers, and the vertices: those that a triangle has, in the same order.
 class Vertices {
  public:
-  Vertices(std::vector<std::size_t> used, const std::string& name) : name_(name) {
-    std::sort(used.begin(), used.end());
-    used.erase(std::unique(used.begin(), used.end()), used.end());
-    number_.reserve(used.size());
-    for (const std::size_t tag : used) number_.emplace(tag, static_cast<LocalIndex>(number_.size()));
+  Vertices(std::vector<MshContent::Node> nodes, const std::vector<MshContent::Triangle>& triangles, const std::string& name)
+      : nodes_(std::move(nodes)), vertex_(nodes_.size(), -1), name_(name) {
+    const auto before = [](const auto& a, const auto& b) { return a.number < b.number; };
+    if (!std::is_sorted(nodes_.begin(), nodes_.end(), before)) std::sort(nodes_.begin(), nodes_.end(), before);
+    const auto same = [](const auto& a, const auto& b) { return a.number == b.number; };
+    const auto twice = std::adjacent_find(nodes_.begin(), nodes_.end(), same);
+    if (twice != nodes_.end())
+      throw InputError(name + " has two nodes with the number " + std::to_string(twice->number) +
+                       "; number them differently, or save it anew.");
+    for (const auto& triangle : triangles)
+      for (const std::int64_t node : triangle.nodes) vertex_[position("triangle", triangle.number, node)] = 0;
+    for (LocalIndex& vertex : vertex_)
+      if (vertex == 0) vertex = count_++;
   }
 
-  LocalIndex operator()(std::size_t tag) const {
-    const auto found = number_.find(tag);
-    if (found == number_.end()) throw InputError(name_ + " has edges in physical groups that are no side of a triangle; remove them.");
-    return found->second;
+  LocalIndex of_triangle(const MshContent::Triangle& triangle, int i) const {
+    return vertex_[position("triangle", triangle.number, triangle.nodes[i])];
+  }
+  LocalIndex of_line(const MshContent::Line& line, int i) const {
+    const LocalIndex vertex = vertex_[position("edge", line.number, line.nodes[i])];
+    if (vertex < 0) throw InputError(name_ + " has edges in physical groups that are no side of a triangle; remove them.");
+    return vertex;
   }
 
   std::vector<std::array<double, 2>> points() const {
-    std::vector<std::size_t> tags;
-    std::vector<double> x, unused;
-    gmsh::model::mesh::getNodes(tags, x, unused, -1, -1, false, false);
-    const double nan = std::numeric_limits<double>::quiet_NaN();
-    std::vector<std::array<double, 2>> points(number_.size(), {nan, nan});
-    double lowest = std::numeric_limits<double>::infinity(), highest = -lowest, extent = 0;
-    for (std::size_t k = 0; k < tags.size(); ++k) {
-      const auto found = number_.find(tags[k]);
-      if (found == number_.end()) continue;
-      points[found->second] = {x[3 * k], x[3 * k + 1]};
-      lowest = std::min(lowest, x[3 * k + 2]);
-      highest = std::max(highest, x[3 * k + 2]);
-      extent = std::max({extent, std::abs(x[3 * k] - points[0][0]), std::abs(x[3 * k + 1] - points[0][1])});
+    const double inf = std::numeric_limits<double>::infinity();
+    std::array<double, 3> low = {inf, inf, inf}, high = {-inf, -inf, -inf};
+    std::vector<std::array<double, 2>> points;
+    points.reserve(count_);
+    for (std::size_t k = 0; k < nodes_.size(); ++k) {
+      if (vertex_[k] < 0) continue;
+      const auto& x = nodes_[k].x;
+      points.push_back({x[0], x[1]});
+      for (int d = 0; d < 3; ++d) low[d] = std::min(low[d], x[d]), high[d] = std::max(high[d], x[d]);
     }
-    for (const auto& point : points)
-      if (!std::isfinite(point[0]) || !std::isfinite(point[1]))
-        throw InputError(name_ + " lacks a node of some triangle, or its coordinates; write it anew.");
-    if (!(highest - lowest <= 1e-10 * extent)) throw InputError(name_ + " is not plane; give a mesh of which all nodes have the same z.");
+    if (!(high[2] - low[2] <= 1e-10 * std::max(high[0] - low[0], high[1] - low[1])))
+      throw InputError(name_ + " is not plane; give a mesh of which all nodes have the same z.");
     return points;
   }
 
  private:
+  std::size_t position(const char* kind, std::int64_t element, std::int64_t number) const {
+    const auto before = [](const MshContent::Node& node, std::int64_t wanted) { return node.number < wanted; };
+    // Where no number is left out there is nothing to look for.
+    const std::int64_t guess = nodes_.empty() ? 0 : number - nodes_.front().number;
+    if (guess >= 0 && guess < static_cast<std::int64_t>(nodes_.size()) && nodes_[guess].number == number) return guess;
+    const auto found = std::lower_bound(nodes_.begin(), nodes_.end(), number, before);
+    if (found == nodes_.end() || found->number != number)
+      throw InputError(name_ + ": the " + kind + " " + std::to_string(element) + " has the node " + std::to_string(number) +
+                       ", which is not in the file; correct it, or save the mesh anew.");
+    return found - nodes_.begin();
+  }
+
+  std::vector<MshContent::Node> nodes_;
+  std::vector<LocalIndex> vertex_;
+  LocalIndex count_ = 0;
   std::string name_;
-  std::unordered_map<std::size_t, LocalIndex> number_;
 };
 
-std::vector<std::array<LocalIndex, 3>> oriented_cells(const std::vector<std::size_t>& nodes, const Vertices& vertices,
+std::vector<std::array<LocalIndex, 3>> oriented_cells(const std::vector<MshContent::Triangle>& triangles, const Vertices& vertices,
                                                       const std::vector<std::array<double, 2>>& points) {
-  std::vector<std::array<LocalIndex, 3>> cells(nodes.size() / 3);
-  for (std::size_t K = 0; K < cells.size(); ++K) {
-    auto& [a, b, c] = cells[K];
-    a = vertices(nodes[3 * K]), b = vertices(nodes[3 * K + 1]), c = vertices(nodes[3 * K + 2]);
-    const auto &x = points[a], &y = points[b], &z = points[c];
-    if ((y[0] - x[0]) * (z[1] - x[1]) < (z[0] - x[0]) * (y[1] - x[1])) std::swap(b, c);
+  std::vector<std::array<LocalIndex, 3>> cells;
+  cells.reserve(triangles.size());
+  for (const auto& triangle : triangles) {
+    std::array<LocalIndex, 3> cell;
+    for (int i = 0; i < 3; ++i) cell[i] = vertices.of_triangle(triangle, i);
+    const auto &x = points[cell[0]], &y = points[cell[1]], &z = points[cell[2]];
+    if ((y[0] - x[0]) * (z[1] - x[1]) < (z[0] - x[0]) * (y[1] - x[1])) std::swap(cell[1], cell[2]);
+    cells.push_back(cell);
   }
   return cells;
 }
 
-void add_groups(const Vertices& vertices, Triangulation& mesh) {
-  gmsh::vectorpair groups;
-  gmsh::model::getPhysicalGroups(groups, 1);
-  for (const auto& [dimension, group] : groups) {
-    std::string tag;
-    gmsh::model::getPhysicalName(dimension, group, tag);
-    if (tag.empty()) tag = "physical " + std::to_string(group);
-    const auto known = std::find(mesh.tags.begin(), mesh.tags.end(), tag);
-    const auto index = static_cast<int>(known - mesh.tags.begin());
-    if (known == mesh.tags.end()) mesh.tags.push_back(tag);
-
-    std::vector<int> entities;
-    gmsh::model::getEntitiesForPhysicalGroup(dimension, group, entities);
-    for (const int entity : entities) {
-      const std::vector<std::size_t> nodes = nodes_of(dimension, entity, line, mesh.name);
-      for (std::size_t k = 0; k + 1 < nodes.size(); k += 2) mesh.boundary.push_back({vertices(nodes[k]), vertices(nodes[k + 1]), index});
+void add_boundary(MshContent& content, const Vertices& vertices, Triangulation& mesh) {
+  std::stable_sort(content.lines.begin(), content.lines.end(), [](const auto& a, const auto& b) { return a.group < b.group; });
+  const MshContent::Line* before = nullptr;
+  int tag = 0;
+  for (const auto& line : content.lines) {
+    if (!before || before->group != line.group) {
+      const auto named = content.names.find(line.group);
+      const bool unnamed = named == content.names.end() || named->second.empty();
+      const std::string name = unnamed ? "physical " + std::to_string(line.group) : named->second;
+      const auto known = std::find(mesh.tags.begin(), mesh.tags.end(), name);
+      tag = static_cast<int>(known - mesh.tags.begin());
+      if (known == mesh.tags.end()) mesh.tags.push_back(name);
     }
+    before = &line;
+    mesh.boundary.push_back({vertices.of_line(line, 0), vertices.of_line(line, 1), tag});
   }
-}
-
-Triangulation current_model(const std::string& name) {
-  Triangulation mesh;
-  mesh.name = name;
-  nodes_of(3, -1, 0, name);  // none is allowed
-  const std::vector<std::size_t> nodes = nodes_of(2, -1, triangle, name);
-  if (nodes.empty())
-    throw InputError(name + " has no triangles; give a mesh of a plane domain (gmsh -2, with its surfaces in a physical group or none).");
-  const Vertices vertices(nodes, name);
-  mesh.points = vertices.points();
-  mesh.cells = oriented_cells(nodes, vertices, mesh.points);
-  add_groups(vertices, mesh);
-  return mesh;
 }
 
 }  // namespace
 
+Triangulation gmsh_triangulation(std::string bytes, const std::string& name) {
+  MshContent content = read_msh(std::move(bytes), name);
+  if (content.triangles.empty())
+    throw InputError(name + " has no triangles; give a mesh of a plane domain (gmsh -2, with its surfaces in a physical group or none).");
+  require_all_parts(content, name);
+  require_different_elements(std::move(content.elements), name);
+  drop_copies(content.triangles);
+  std::stable_sort(content.triangles.begin(), content.triangles.end(), [](const auto& a, const auto& b) { return a.surface < b.surface; });
+
+  Triangulation mesh;
+  mesh.name = name;
+  const Vertices vertices(std::move(content.nodes), content.triangles, name);
+  mesh.points = vertices.points();
+  mesh.cells = oriented_cells(content.triangles, vertices, mesh.points);
+  add_boundary(content, vertices, mesh);
+  return mesh;
+}
+
 Triangulation read_gmsh(const std::string& path) {
   const std::string name = "mesh/file: '" + path + "'";
-  require_format(path, name);
-  const Session session;
-  std::string reason;
   try {
-    gmsh::merge(path);  // unlike open, it reads no options beside the file
-    return current_model(name);
-  } catch (const core::Error&) {
-    throw;
-  } catch (const std::string& message) {  // what the API of Gmsh throws
-    reason = message;
-  } catch (const std::exception& error) {
-    reason = error.what();
-  } catch (int) {
-    reason = "unknown reason";
+    return gmsh_triangulation(bytes_of(path, name), name);
+  } catch (const std::bad_alloc&) {
+    throw FileError(name + " needs more memory than there is; give a coarser mesh and more refinements.");
   }
-  throw InputError(name + " is damaged (" + reason + "); write it anew.");
 }
 
 }  // namespace thixis::mesh

@@ -122,8 +122,8 @@ const core::Schema<MeshParams>& MeshParams::schema() {
           .parameter("refinements", &MeshParams::refinements, core::between(0, 20),
                      "Uniform refinements; each makes four triangles or rectangles of one, or two intervals.")
           .parameter("file", &MeshParams::file,
-                     "Gmsh mesh (format 2.2 or 4.1) of straight triangles, relative to the deck; its physical curves name the parts of the "
-                     "boundary.")
+                     "Gmsh mesh (format 2.2 or 4.1, text or binary) of straight triangles, relative to the deck; its physical curves name "
+                     "the parts of the boundary.")
           .parameter("cells per rank", &MeshParams::cells_per_rank, at_least(1),
                      "The coarsest level with so many cells per rank is the one that is partitioned.")
           .check([](const MeshParams& params, core::Problems& problems) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "thixis/mesh/geometry.hpp"
 #include "thixis/mesh/host.hpp"
@@ -31,6 +32,18 @@ Statistics statistics(const Mesh& mesh) {
   }
   return {mesh.comm.sum(s.area), mesh.comm.min(s.h_min), mesh.comm.max(s.h_max), mesh.comm.min(s.smallest_angle),
           mesh.comm.max(s.largest_angle)};
+}
+
+Box bounding_box(const Mesh& mesh) {
+  const auto x = on_host(mesh).coordinates;
+  std::vector<double> corner(4, -std::numeric_limits<double>::max());  // -lower, upper
+  for (LocalIndex v = 0; v < mesh.vertices; ++v)
+    for (int d = 0; d < 2; ++d) {
+      corner[d] = std::max(corner[d], -x(v, d));
+      corner[2 + d] = std::max(corner[2 + d], x(v, d));
+    }
+  mesh.comm.max(corner);
+  return {{-corner[0], -corner[1]}, {corner[2], corner[3]}};
 }
 
 }  // namespace thixis::mesh

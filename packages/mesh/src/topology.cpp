@@ -2,11 +2,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <sstream>
 
 #include "thixis/core/error.hpp"
+#include "thixis/core/text.hpp"
 #include "thixis/mesh/geometry.hpp"
+#include "thixis/mesh/groups.hpp"
 #include "thixis/mesh/host.hpp"
 #include "triangulation.hpp"
 
@@ -56,13 +59,6 @@ LocalIndex count_faces(const std::vector<Side>& sides, const Triangulation& tria
   return faces;
 }
 
-int find_or_add(const std::string& name, std::vector<std::string>& names) {
-  const auto found = std::find(names.begin(), names.end(), name);
-  const auto position = static_cast<int>(found - names.begin());
-  if (found == names.end()) names.push_back(name);
-  return position;
-}
-
 void require_positive_areas(const Triangulation& triangulation, const HostMesh& host) {
   for (std::size_t K = 0; K < triangulation.cells.size(); ++K) {
     double longest = 0;
@@ -76,37 +72,50 @@ void require_positive_areas(const Triangulation& triangulation, const HostMesh& 
   }
 }
 
-/// Gives the faces of the boundary the tags of their segments, "boundary" where there is none. The others have tag -1.
-void tag_boundary(const Triangulation& triangulation, const HostMesh& host, Mesh& mesh) {
-  std::vector<Side> segments;
-  for (const auto& segment : triangulation.boundary)
-    segments.push_back({std::min(segment.first, segment.second), std::max(segment.first, segment.second), 0, 0, segment.tag});
-  std::sort(segments.begin(), segments.end());
-  const auto refuse = [&](const Side& segment, const std::string& why) {
-    throw core::InputError(triangulation.name + ": the edge from " + at(triangulation, segment.low) + " to " +
-                           at(triangulation, segment.high) + " of the group '" + triangulation.tags[segment.slot] + "' " + why);
-  };
+/// The groups in which the faces of the boundary lie, as positions in `names`.
+struct Membership {
+  std::vector<std::string> names;
+  std::vector<std::pair<LocalIndex, std::vector<int>>> groups;  ///< of each face of the boundary
 
-  mesh.tags = triangulation.tags;
-  auto segment = segments.cbegin();
-  for (LocalIndex F = 0; F < mesh.faces; ++F) {  // faces and segments are both in the order of their vertices
-    const Side face = {host.face_vertices(F, 0), host.face_vertices(F, 1), 0, 0, -1};
-    if (segment != segments.cend() && *segment < face) break;
-    const auto first = segment;
-    while (segment != segments.cend() && segment->same_face(face)) ++segment;
+  Membership(const Triangulation& triangulation, const HostMesh& host, LocalIndex faces) : names(triangulation.tags) {
+    const auto other = static_cast<int>(std::find(names.begin(), names.end(), "boundary") - names.begin());
+    if (other == static_cast<int>(names.size())) names.emplace_back("boundary");
+    std::vector<Side> segments;
+    for (const auto& segment : triangulation.boundary)
+      segments.push_back({std::min(segment.first, segment.second), std::max(segment.first, segment.second), 0, 0, segment.tag});
+    std::sort(segments.begin(), segments.end());
 
-    const bool inside = host.face_cells(F, 0) >= 0 && host.face_cells(F, 1) >= 0;
-    if (inside) {
-      host.face_tag(F) = -1;
-    } else if (first == segment) {
-      host.face_tag(F) = find_or_add("boundary", mesh.tags);
-    } else {
-      host.face_tag(F) = first->slot;
-      if (const Side& last = *(segment - 1); last.slot != first->slot)
-        refuse(*first, "is in the group '" + mesh.tags[last.slot] + "', too; put each edge of the boundary in one group.");
+    auto segment = segments.cbegin();
+    for (LocalIndex F = 0; F < faces; ++F) {  // faces and segments are both in the order of their vertices
+      const Side face = {host.face_vertices(F, 0), host.face_vertices(F, 1), 0, 0, -1};
+      if (segment != segments.cend() && *segment < face) break;
+      std::vector<int> here;
+      for (; segment != segments.cend() && segment->same_face(face); ++segment)
+        if (here.empty() || here.back() != segment->slot) here.push_back(segment->slot);
+      if (host.face_cells(F, 0) >= 0 && host.face_cells(F, 1) >= 0) continue;
+      if (here.empty()) here.push_back(other);
+      groups.emplace_back(F, std::move(here));
     }
+    if (segment != segments.cend())
+      throw core::InputError(triangulation.name + ": the edge from " + at(triangulation, segment->low) + " to " +
+                             at(triangulation, segment->high) + " of the group '" + names[segment->slot] +
+                             "' is no side of a triangle; give a mesh of the plane part only, without loose edges.");
   }
-  if (segment != segments.cend()) refuse(*segment, "is no side of a triangle; give a mesh of the plane part only, without loose edges.");
+};
+
+/// The faces of the boundary that lie in the same groups are one part of it.
+void tag_boundary(const Triangulation& triangulation, const HostMesh& host, Mesh& mesh) {
+  const Membership membership(triangulation, host, mesh.faces);
+  std::map<std::vector<int>, LocalIndex> parts;
+  for (const auto& [F, groups] : membership.groups) parts.emplace(groups, 0);
+  for (auto& [groups, part] : parts) {
+    part = static_cast<LocalIndex>(mesh.tags.size());
+    std::vector<std::string> names;
+    for (const int group : groups) names.push_back(membership.names[group]);
+    mesh.tags.push_back(core::join(names, intersection));
+  }
+  Kokkos::deep_copy(host.face_tag, -1);
+  for (const auto& [F, groups] : membership.groups) host.face_tag(F) = parts.at(groups);
 }
 
 template <class Index>

@@ -17,7 +17,8 @@ struct Triangulation {
   };
   std::vector<std::array<double, 2>> points;     ///< in the parameter domain; each is the vertex of some cell
   std::vector<std::array<LocalIndex, 3>> cells;  ///< vertices counter-clockwise
-  std::vector<Segment> boundary;  ///< tagged faces; those inside the domain are ignored, faces of the boundary missing here get "boundary"
+  std::vector<Segment> boundary;  ///< tagged faces, some perhaps with several tags; those inside the domain are ignored, faces of the
+                                  ///< boundary missing here get "boundary"
   std::vector<std::string> tags;
   Refinement refinement = Refinement::red;
   Chart chart = Chart::identity;
@@ -35,8 +36,11 @@ Triangulation rectangle_mesh(const MeshParams& params);
 Triangulation disk_mesh(const MeshParams& params);
 
 /// Triangles of a Gmsh file (formats 2.2 and 4.1), named parts of its boundary: the physical groups of dimension 1. Orients the cells,
-/// drops nodes without cell. Not collective. Throws FileError, InputError.
+/// drops nodes without cell. Nothing in the file is ever executed. Not collective. Throws FileError, InputError.
 Triangulation read_gmsh(const std::string& path);
+
+/// The same of the bytes of a file, which messages call `name`.
+Triangulation gmsh_triangulation(std::string bytes, const std::string& name);
 
 /// Makes the coarsest level of it, whole on every rank, ids = local numbers, everything owned by rank 0. Throws InputError unless the cells
 /// are counter-clockwise, meet in whole faces, two at most, and the boundary does not touch itself.

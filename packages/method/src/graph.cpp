@@ -1,10 +1,12 @@
 #include "thixis/method/graph.hpp"
 
 #include <algorithm>
+#include <string>
 #include <vector>
 
 #include "thixis/algebra/tpetra.hpp"
 #include "thixis/core/assert.hpp"
+#include "thixis/core/error.hpp"
 
 namespace thixis::method {
 namespace {
@@ -119,7 +121,10 @@ algebra::GraphPtr make_graph(const algebra::MapPtr& rows, const algebra::MapPtr&
 
 void scatter(const ElementUnknowns& elements, LocalIndex first, const Kokkos::View<const double***, Kokkos::LayoutRight>& local,
              algebra::Matrix& A) {
-  THIXIS_ASSERT(local.extent_int(2) <= most_unknowns, "elements are no wider");
+  if (local.extent_int(2) > most_unknowns)
+    throw core::Error(core::ExitCode::internal, "An element has " + std::to_string(local.extent(2)) +
+                                                    " unknowns, and the assembly of its matrix serves at most " +
+                                                    std::to_string(most_unknowns) + ".");
   Kokkos::parallel_for("thixis::method::scatter_matrix", Kokkos::RangePolicy<Execution>(0, local.extent_int(0)),
                        ScatterMatrix{elements, local, A.getLocalMatrixDevice(), first});
 }

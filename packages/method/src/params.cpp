@@ -36,8 +36,9 @@ const core::Schema<MethodParams>& MethodParams::schema() {
               "condensation", &MethodParams::condensation,
               "Whether the unknowns inside the cells are eliminated from the linear systems, contact included: possible for hho, and for "
               "fem of degree 3 and 4. Not given: true for hho. The systems are then reduced ones, whatever linear/form says.")
-          .parameter("stabilization", &MethodParams::stabilization, core::above(0),
-                     "hho: kappa in the stabilization kappa/h of the differences between cell and face (docs/methods/hho.md).")
+          .parameter("stabilization", &MethodParams::stabilization, core::between(1, 1e6),
+                     "hho: kappa in the stabilization kappa/h of the differences between cell and face; below 1 the error would grow like "
+                     "1/kappa, and nothing would be gained (docs/methods/hho.md, 4).")
           .choice("stabilization length", &MethodParams::stabilization_length,
                   {{"face", StabilizationLength::face}, {"cell", StabilizationLength::cell}},
                   "hho: h is the length of the face, or the diameter of the cell.");

@@ -11,6 +11,7 @@
 #include "thixis/core/error.hpp"
 #include "thixis/mesh/ancestry.hpp"
 #include "thixis/method/gradient_form.hpp"
+#include "thixis/method/jumps.hpp"
 #include "thixis/reference/quadrature.hpp"
 
 namespace thixis::method {
@@ -333,6 +334,22 @@ void PolynomialSpace::interpolate(const scene::Field& u, double t, Vector& value
   restrict_to_unknowns(coefficients, values);
 }
 
+void PolynomialSpace::interpolate_obstacle(const scene::Field& psi, Vector& values) const {
+  const Coefficients coefficients("thixis::method::obstacle", structure_.entries.size());
+  mesh_.comm.together([&] {
+    std::vector<LocalIndex> all(structure_.cell_entries);
+    for (LocalIndex e = 0; e < structure_.cell_entries; ++e) all[e] = e;
+    auto value = at_entries(psi, all, 0);
+    const auto rule = conforming() ? AtJumps::shared : AtJumps::lowest;
+    const auto entries = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), structure_.element_entries);
+    interpolate_with_jumps(basis_, entries, jumps_in_cells(quadrature_, psi, 0), rule, value);
+    const auto host = Kokkos::create_mirror_view(coefficients);
+    std::copy(value.begin(), value.end(), host.data());
+    Kokkos::deep_copy(coefficients, host);
+  });
+  restrict_to_unknowns(coefficients, values);
+}
+
 // -- from the coarser mesh ----------------------------------------------------------------------------------------------------------
 
 Block2 PolynomialSpace::of_cells(const std::vector<GlobalIndex>& ids, const Coefficients& u) const {
@@ -469,7 +486,7 @@ void PolynomialSpace::share(const Vector& R, const View<double**>& moments) cons
 }
 
 void PolynomialSpace::native_flux(const scene::Field&, const scene::Field&, const Coefficients&, const BoundaryValues&, double,
-                                  const View<double**>&) const {
+                                  const HeldSource&, const View<double**>&) const {
   throw core::Error(core::ExitCode::internal, "This method has no flux of its own.");
 }
 

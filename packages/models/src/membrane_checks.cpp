@@ -5,8 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
+#include "degree_check.hpp"
+#include "exact_gradient.hpp"
 #include "thixis/core/error.hpp"
+#include "thixis/mesh/groups.hpp"
 #include "thixis/mesh/host.hpp"
 #include "thixis/method/quadrature.hpp"
 #include "thixis/reference/quadrature.hpp"
@@ -45,9 +49,11 @@ std::string named(const scene::MembraneScene& scene, const char* letter, int alp
   return scene.count == 1 ? letter : letter + std::to_string(alpha + 1);
 }
 
+std::string and_time(double t) { return t > 0 ? fmt::format(", t = {:.6g}", t) : ""; }
+
 /// Throws where the values of two held parts of the boundary differ at a vertex where they meet: no function of finite energy has such
 /// boundary values. Every owned vertex has all its faces on this rank. Collective.
-void check_jumps(const scene::MembraneScene& scene, const Boundary& boundary, const mesh::Mesh& mesh) {
+void check_jumps(const scene::MembraneScene& scene, const Boundary& boundary, const mesh::Mesh& mesh, double t) {
   const std::size_t tags = boundary.dirichlet.size();
   const auto host = mesh::on_host(mesh);
   std::vector<std::vector<double>> values(tags * scene.count);
@@ -58,7 +64,7 @@ void check_jumps(const scene::MembraneScene& scene, const Boundary& boundary, co
       if (!boundary.dirichlet[tag]) continue;
       ends[tag] = points_on(mesh, host, tag, {0, 1});
       for (int alpha = 0; alpha < scene.count; ++alpha) {
-        auto& found = values[tag * scene.count + alpha] = ends[tag].evaluate(*boundary.values[alpha].dirichlet[tag]);
+        auto& found = values[tag * scene.count + alpha] = ends[tag].evaluate(*boundary.values[alpha].dirichlet[tag], t);
         for (const double value : found) {
           lowest = std::min(lowest, value);
           highest = std::max(highest, value);
@@ -90,10 +96,10 @@ void check_jumps(const scene::MembraneScene& scene, const Boundary& boundary, co
           const double here = values[tag * scene.count + alpha][end], there = values[other.tag * scene.count + alpha][other.end];
           if (std::abs(here - there) > allowed)
             throw core::InputError(fmt::format(
-                "scene/boundary: {} jumps where the parts '{}' and '{}' of the boundary meet, at ({:.6g}, {:.6g}): {:.6g} and {:.6g}; no "
+                "scene/boundary: {} jumps where the parts '{}' and '{}' of the boundary meet, at ({:.6g}, {:.6g}){}: {:.6g} and {:.6g}; no "
                 "solution of finite energy exists then. Give data that agree there, such as a steep ramp.",
-                named(scene, "g", alpha), mesh.tags[low], mesh.tags[high], ends[tag].x[end], ends[tag].y[end], low == tag ? here : there,
-                low == tag ? there : here));
+                named(scene, "g", alpha), mesh.tags[low], mesh.tags[high], ends[tag].x[end], ends[tag].y[end], and_time(t),
+                low == tag ? here : there, low == tag ? there : here));
         }
       }
     }
@@ -105,6 +111,11 @@ void check_jumps(const scene::MembraneScene& scene, const Boundary& boundary, co
 void check_data(const scene::MembraneScene& scene, const method::MethodParams& method, const mesh::Mesh& mesh) {
   const auto quadrature = method::make_quadrature(mesh, method::owned_cells(mesh), method.order(), scene.interface_level_set);
   double lowest[2] = {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  std::vector<scene::FieldPtr> exact[2];
+  for (int alpha = 0; scene.exact && alpha < scene.count; ++alpha) {
+    const auto slope = exact_gradient(*scene.exact, alpha, mesh);
+    exact[alpha] = {scene.exact->u[alpha], slope[0], slope[1]};
+  }
   mesh.comm.together([&] {
     const mesh::View<double*> values("thixis::models::data", quadrature.largest_block);
     const auto on_host = Kokkos::create_mirror_view(values);
@@ -112,9 +123,7 @@ void check_data(const scene::MembraneScene& scene, const method::MethodParams& m
       if (scene.obstacle) method::evaluate(*scene.obstacle, 0, block, values);
       for (int alpha = 0; alpha < scene.count; ++alpha) {
         method::evaluate(*scene.force[alpha], 0, block, values);
-        if (scene.exact)
-          for (const auto& known : {scene.exact->u[alpha], scene.exact->gradient[alpha][0], scene.exact->gradient[alpha][1]})
-            method::evaluate(*known, 0, block, values);
+        for (const auto& known : exact[alpha]) method::evaluate(*known, 0, block, values);
         method::evaluate(*scene.tension[alpha], 0, block, values);
         Kokkos::deep_copy(on_host, values);
         for (int q = 0; q < block.points; ++q) lowest[alpha] = std::min(lowest[alpha], on_host(q));
@@ -122,9 +131,16 @@ void check_data(const scene::MembraneScene& scene, const method::MethodParams& m
     });
   });
   for (int alpha = 0; alpha < scene.count; ++alpha)
-    if (const double tension = mesh.comm.min(lowest[alpha]); !(tension > 0))
+    if (const double tension = mesh.comm.min(lowest[alpha]); !(tension >= 1 / scene::largest_value))
       throw core::InputError(fmt::format("scene/data/{}: the tension falls to {:.6g}; give one that is positive everywhere.",
                                          named(scene, "mu", alpha), tension));
+}
+
+/// The largest divisor of n up to 32: every so many points of a generator's boundary are some of those of n.
+int divisor(int n) {
+  int d = std::min(n, 32);
+  while (n % d != 0) --d;
+  return d;
 }
 
 /// Throws where the functions that a cold start begins with are not finite. Collective.
@@ -163,12 +179,38 @@ void check_boundary(const scene::MembraneScene& scene, const Boundary& boundary,
         if (upper[i] < lower[i] - 1e-12 * size)
           throw core::InputError(fmt::format(
               "{}: on the boundary '{}' {}: {} = {:.6g} < {} = {:.6g} at ({:.6g}, {:.6g}){}; give boundary data with {} >= {}.",
-              scene.boundary.count(mesh.tags[tag]) > 0 ? "scene/boundary/" + mesh.tags[tag] : "scene/data/" + named(scene, "g", 0),
-              mesh.tags[tag], one ? "the membrane lies below the obstacle" : "the upper membrane lies below the lower one",
-              named(scene, "g", 0), upper[i], one ? "psi" : "g2", lower[i], at.x[i], at.y[i], t > 0 ? fmt::format(", t = {:.6g}", t) : "",
-              named(scene, "g", 0), one ? "psi" : "g2"));
+              boundary.named[tag].empty() ? "scene/data/" + named(scene, "g", 0) : "scene/boundary/" + boundary.named[tag], mesh.tags[tag],
+              one ? "the membrane lies below the obstacle" : "the upper membrane lies below the lower one", named(scene, "g", 0), upper[i],
+              one ? "psi" : "g2", lower[i], at.x[i], at.y[i], and_time(t), named(scene, "g", 0), one ? "psi" : "g2"));
     }
   });
+  check_jumps(scene, boundary, mesh, t);
+}
+
+void check_boundary(const scene::MembraneScene& scene, const mesh::MeshParams& params, const std::vector<double>& times) {
+  if (params.generator == mesh::Generator::file) return;
+  mesh::MeshParams coarse = params;
+  coarse.refinements = 0;
+  coarse.cells_per_side = divisor(params.cells_per_side);
+  coarse.rings = divisor(params.rings);
+  const auto hierarchy = mesh::build(coarse, core::Comm(MPI_COMM_SELF), "");
+  Boundary boundary = boundary_of(scene, hierarchy.finest());
+  for (auto& membrane : boundary.values)  // integrated, and not asked for at vertices
+    for (auto& traction : membrane.neumann)
+      if (traction) traction = scene::constant(0);
+  for (const double t : times) check_boundary(scene, boundary, {}, hierarchy.finest(), t);
+}
+
+bool steady(const std::vector<scene::FieldPtr>& fields) {
+  return std::all_of(fields.begin(), fields.end(), [](const scene::FieldPtr& field) { return !field || field->steady(); });
+}
+
+bool steady_boundary(const scene::MembraneScene& scene) {
+  const auto is_steady = [](const scene::BoundaryCondition& condition) {
+    return condition.kind == scene::BoundaryKind::neumann || steady({condition.value[0], condition.value[1]});
+  };
+  return is_steady(scene.default_boundary) &&
+         std::all_of(scene.boundary.begin(), scene.boundary.end(), [&](const auto& part) { return is_steady(part.second); });
 }
 
 void check_order(const scene::FieldPtr (&initial)[2], const method::MethodParams& method, const mesh::Mesh& mesh) {
@@ -200,42 +242,53 @@ void check_order(const scene::FieldPtr (&initial)[2], const method::MethodParams
 }
 
 Boundary boundary_of(const scene::MembraneScene& scene, const mesh::Mesh& mesh) {
-  for (const auto& [tag, condition] : scene.boundary)
-    if (std::find(mesh.tags.begin(), mesh.tags.end(), tag) == mesh.tags.end()) {
-      std::string names;
-      for (const auto& name : mesh.tags) names += (names.empty() ? "" : ", ") + name;
-      throw core::InputError("scene/boundary/" + tag + ": the mesh has no such part of the boundary; write one of: " + names + ".");
-    }
+  std::vector<std::string> names;
+  for (const auto& [name, condition] : scene.boundary) names.push_back(name);
   Boundary boundary;
-  for (const auto& tag : mesh.tags) {
-    const auto given = scene.boundary.find(tag);
+  boundary.named = mesh::named_groups(mesh.tags, names, "scene/boundary");
+  for (std::size_t tag = 0; tag < mesh.tags.size(); ++tag) {
+    const auto given = scene.boundary.find(boundary.named[tag]);
     const auto& condition = given == scene.boundary.end() ? scene.default_boundary : given->second;
     const bool dirichlet = condition.kind == scene::BoundaryKind::dirichlet;
     const bool known = condition.value[0] && (scene.count == 1 || condition.value[1]);
     if (dirichlet && !known)
       throw core::InputError(fmt::format(
-          "scene/boundary/{0}: nothing is said about this part of the boundary; give {1} there, or {1} in scene/data for all of it.", tag,
-          scene.count == 1 ? "g" : "g1 and g2"));
+          "scene/boundary/{0}: nothing is said about this part of the boundary; give {1} there, or {1} in scene/data for all of it.",
+          boundary.named[tag].empty() ? mesh.tags[tag] : boundary.named[tag], scene.count == 1 ? "g" : "g1 and g2"));
     boundary.dirichlet.push_back(dirichlet);
     for (int alpha = 0; alpha < scene.count; ++alpha) {
       boundary.values[alpha].dirichlet.push_back(dirichlet ? condition.value[alpha] : nullptr);
       boundary.values[alpha].neumann.push_back(dirichlet ? nullptr : condition.value[alpha]);
     }
   }
-  if (std::find(boundary.dirichlet.begin(), boundary.dirichlet.end(), true) == boundary.dirichlet.end())
-    throw core::InputError(
-        fmt::format("scene/boundary: no part of the boundary has kind dirichlet, so the {} free to float away; fix at least one.",
-                    scene.count == 1 ? "membrane is" : "membranes are"));
   return boundary;
+}
+
+void check_held(const scene::MembraneScene& scene, const Boundary& boundary) {
+  if (std::find(boundary.dirichlet.begin(), boundary.dirichlet.end(), true) != boundary.dirichlet.end()) return;
+  throw core::InputError(
+      fmt::format("scene/boundary: no part of the boundary has kind dirichlet, so the {} free to float away; fix at least one.",
+                  scene.count == 1 ? "membrane is" : "membranes are"));
 }
 
 void check_functions(const scene::MembraneScene& scene, const std::array<scene::FieldPtr, 3>& initial, const method::MethodParams& method,
                      const mesh::Mesh& mesh) {
   const Boundary boundary = boundary_of(scene, mesh);
   check_boundary(scene, boundary, method, mesh, 0);
-  check_jumps(scene, boundary, mesh);
   check_initial(initial, mesh);
   if (scene.name == "data") check_data(scene, method, mesh);
+  check_degrees(scene, boundary, mesh);
+}
+
+std::vector<mesh::Place> place(const std::vector<Probe>& probes, const mesh::Mesh& mesh) {
+  std::vector<std::array<double, 2>> points;
+  for (const auto& probe : probes) points.push_back(probe.at);
+  auto places = mesh::locate(mesh, points);
+  for (std::size_t i = 0; i < probes.size(); ++i)
+    if (!places[i].inside)
+      throw core::InputError(fmt::format("{}: the point ({:.6g}, {:.6g}) lies outside of the mesh; take one inside.", probes[i].path,
+                                         points[i][0], points[i][1]));
+  return places;
 }
 
 void check_field_names(const scene::MembraneScene& scene, const std::vector<std::string>& names) {

@@ -6,6 +6,7 @@
 
 #include "heights.hpp"
 #include "thixis/core/error.hpp"
+#include "thixis/method/values_at.hpp"
 
 namespace thixis::models {
 namespace {
@@ -35,8 +36,16 @@ void keep_in_order(const Coefficients& upper, const Coefficients& lower, const s
       });
 }
 
-bool steady(const std::vector<scene::FieldPtr>& fields) {
-  return std::all_of(fields.begin(), fields.end(), [](const scene::FieldPtr& field) { return !field || field->steady(); });
+std::string displacement(int count, int alpha) { return count == 1 ? "u" : alpha == 0 ? "u1" : "u2"; }
+
+std::vector<double> values_of(const scene::Field& field, const std::vector<Probe>& probes) {
+  std::vector<double> x, y, values(probes.size());
+  for (const auto& probe : probes) {
+    x.push_back(probe.at[0]);
+    y.push_back(probe.at[1]);
+  }
+  field.evaluate({probes.size(), x.data(), y.data()}, 0, values.data());
+  return values;
 }
 
 }  // namespace
@@ -135,7 +144,7 @@ std::vector<output::CheckpointBlock> MembraneLevel::save(const Vector& X, const 
     const auto count = static_cast<std::ptrdiff_t>(values.extent(0));
     blocks.push_back({name + suffix, {ids.begin(), ids.begin() + count}, {values.data(), values.data() + count}});
   };
-  for (int alpha = 0; alpha < scene_.count; ++alpha) add(displacement(alpha), *x.u.getVector(alpha));
+  for (int alpha = 0; alpha < scene_.count; ++alpha) add(displacement(scene_.count, alpha), *x.u.getVector(alpha));
   add("lambda", x.lambda);
   if (origin_ != 0) {
     const bool root = space_->mesh().comm.root();
@@ -150,13 +159,13 @@ Teuchos::RCP<Vector> MembraneLevel::restore(const output::StoredCheckpoint& stor
   const auto ids = space_->unknown_ids();
   const auto fetch = [&](const std::string& name, Vector& v) {
     check_size(stored, name + suffix, static_cast<GlobalIndex>(v.getGlobalLength()));
-    const auto values = stored.fetch(name + suffix, {ids.begin(), ids.begin() + static_cast<std::ptrdiff_t>(v.getLocalLength())});
+    const auto values = stored.fetch_finite(name + suffix, {ids.begin(), ids.begin() + static_cast<std::ptrdiff_t>(v.getLocalLength())});
     const auto out = algebra::host_overwrite(v);
     std::copy(values.begin(), values.end(), out.data());
   };
-  for (int alpha = 0; alpha < scene_.count; ++alpha) fetch(displacement(alpha), *x.u.getVectorNonConst(alpha));
+  for (int alpha = 0; alpha < scene_.count; ++alpha) fetch(displacement(scene_.count, alpha), *x.u.getVectorNonConst(alpha));
   fetch("lambda", x.lambda);
-  const double origin = stored.size("origin" + suffix) < 0 ? 0 : stored.fetch("origin" + suffix, {0}).front();
+  const double origin = stored.size("origin" + suffix) < 0 ? 0 : stored.fetch_finite("origin" + suffix, {0}).front();
   if (origin != origin_) {
     Vector by(space_->map());
     space_->interpolate(*scene::constant(origin - origin_), 0, by);
@@ -174,7 +183,7 @@ std::vector<output::FieldData> MembraneLevel::shown(const Vector& X, const compl
       shown.push_back({name, output::Centre::vertex, values()});
   };
   for (int alpha = 0; alpha < scene_.count; ++alpha)
-    add(displacement(alpha), [&] {
+    add(displacement(scene_.count, alpha), [&] {
       auto heights = space_->shown(membrane(x, alpha));
       for (double& height : heights) height += origin_;
       return heights;
@@ -195,6 +204,73 @@ std::vector<output::FieldData> MembraneLevel::shown(const Vector& X, const compl
     return space_->coefficients_shown(space_->complete(flag, nothing_));
   });
   return shown;
+}
+
+std::vector<std::string> MembraneLevel::point_fields(const scene::MembraneScene& scene) {
+  std::vector<std::string> names;
+  for (int alpha = 0; alpha < scene.count; ++alpha) names.push_back(displacement(scene.count, alpha));
+  names.insert(names.end(), {"lambda", "gap"});
+  return names;
+}
+
+std::vector<double> MembraneLevel::values_at(const std::vector<Probe>& probes, const Vector& X) const {
+  const Fields x = fields(X);
+  const auto places = place(probes, space_->mesh());
+  std::vector<std::vector<double>> columns;
+  for (int alpha = 0; alpha < scene_.count; ++alpha) columns.push_back(method::values_at(polynomials(), places, membrane(x, alpha)));
+  columns.push_back(method::values_at(polynomials(), places, space_->multiplier(x.lambda)));
+  columns.push_back(columns[0]);
+  const auto below = scene_.count == 2 ? columns[1] : values_of(*scene_.obstacle, probes);
+  for (std::size_t i = 0; i < probes.size(); ++i) columns.back()[i] -= below[i];
+  for (int alpha = 0; alpha < scene_.count; ++alpha)
+    for (double& height : columns[alpha]) height += origin_;
+  std::vector<double> rows;
+  for (std::size_t i = 0; i < probes.size(); ++i)
+    for (const auto& column : columns) rows.push_back(column[i]);
+  return rows;
+}
+
+Vector MembraneLevel::gaps(const Fields& x) const {
+  Vector K(problem_->points());
+  gap(problem_->membranes(), x.u, K);
+  return K;
+}
+
+double MembraneLevel::largest_gap(const Vector& X) const {
+  const Vector gaps_l = gaps(fields(X));
+  const auto K = algebra::host_view(gaps_l);
+  double largest = 0;
+  for (std::size_t l = 0; l < K.extent(0); ++l) largest = std::max(largest, K(l));
+  return space_->mesh().comm.max(largest);
+}
+
+Contact MembraneLevel::contact(const Vector& X) const {
+  const Fields x = fields(X);
+  const Vector gaps_l = gaps(x);
+  Vector scale(problem_->points());
+  problem_->scaling(scale);
+  Contact sum;
+  {
+    const auto read = [](const Vector& v) { return algebra::host_view(v); };
+    const auto weight = read(areas()), K = read(gaps_l), s = read(scale), lambda = read(x.lambda), D = read(space_->pairing());
+    for (std::size_t l = 0; l < K.extent(0); ++l) {
+      if (s(l) * lambda(l) > K(l)) sum.area += weight(l);
+      sum.force += D(l) * lambda(l);
+    }
+  }
+  const core::Comm& comm = space_->mesh().comm;
+  return {comm.sum(sum.area), comm.sum(sum.force)};
+}
+
+/// Set up at the first call. Collective.
+const Vector& MembraneLevel::areas() const {
+  if (areas_.is_null()) {
+    const std::vector<scene::FieldPtr> zero(space_->mesh().tags.size(), scene::constant(0));
+    const auto one = scene::constant(1);
+    areas_ = Teuchos::rcp(new Vector(space_->map()));
+    space_->load(*one, *one, {zero, zero}, 0, *areas_);
+  }
+  return *areas_;
 }
 
 equilibration::ContactProblem MembraneLevel::contact_problem() const {

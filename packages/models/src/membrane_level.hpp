@@ -8,6 +8,7 @@
 #include "thixis/complementarity/active_set.hpp"
 #include "thixis/equilibration/guaranteed_bound.hpp"
 #include "thixis/method/polynomial_space.hpp"
+#include "thixis/models/model.hpp"
 #include "thixis/output/checkpoint.hpp"
 #include "thixis/output/fields.hpp"
 
@@ -55,17 +56,24 @@ class MembraneLevel {
   std::vector<output::FieldData> shown(const algebra::Vector& X, const complementarity::ActiveSet& active,
                                        const std::vector<std::string>& names) const;
 
+  /// u_alpha, lambda, gap: what values_at gives for each point.
+  static std::vector<std::string> point_fields(const scene::MembraneScene& scene);
+  std::vector<double> values_at(const std::vector<Probe>& probes, const algebra::Vector& X) const;
+  Contact contact(const algebra::Vector& X) const;
+  double largest_gap(const algebra::Vector& X) const;  ///< at the contact points
+
   /// The scene as its bound sees it.
   equilibration::ContactProblem contact_problem() const;
 
  private:
   void measure_from_rest();
   double reach(double low) const;
-  std::string displacement(int alpha) const { return scene_.count == 1 ? "u" : alpha == 0 ? "u1" : "u2"; }
   void set_lifts();
   void set_loads();
   method::Coefficients lift_of_obstacle() const;
   std::vector<double> at_points(const scene::Field& field) const;
+  algebra::Vector gaps(const Fields& x) const;
+  const algebra::Vector& areas() const;
   std::vector<double> share_of_upper_tension() const;
 
   const scene::MembraneScene& scene_;
@@ -79,6 +87,7 @@ class MembraneLevel {
   method::Coefficients nothing_, lift_[2], obstacle_;
   Teuchos::RCP<algebra::Vector> body_[2];
   std::unique_ptr<MembraneProblem> problem_;
+  mutable Teuchos::RCP<algebra::Vector> areas_;  ///< (psi_l, 1)
 };
 
 /// X with what the bounds read of it.

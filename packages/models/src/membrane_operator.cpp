@@ -54,7 +54,7 @@ MembraneOperator membrane_operator(const scene::MembraneScene& scene, const meth
   }
   if (scene.count == 1) {
     auto psi = Teuchos::rcp(new Vector(space.map()));
-    space.interpolate(*scene.obstacle, 0, *psi);
+    space.interpolate_obstacle(*scene.obstacle, *psi);
     membranes.obstacle = psi;
     membranes.theta = {0, 1};
   } else if (space.map()->getGlobalNumElements() > 0) {

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "exact_gradient.hpp"
 #include "heights.hpp"
 #include "membrane_checks.hpp"
 #include "membrane_kkt.hpp"
 #include "membrane_level.hpp"
+#include "membrane_pieces.hpp"
 #include "thixis/core/timer.hpp"
 #include "thixis/equilibration/guaranteed_bound.hpp"
 #include "thixis/equilibration/published_bound.hpp"
@@ -59,7 +61,8 @@ class MembraneDiscretization final : public Discretization {
     const Fields x = on_mesh_->fields(X);
     double sum = 0;
     for (int alpha = 0; alpha < scene_.count; ++alpha)
-      sum += space().energy_error(*scene_.tension[alpha], on_mesh_->membrane(x, alpha), scene_.exact->gradient[alpha], 0);
+      sum += space().energy_error(*scene_.tension[alpha], on_mesh_->membrane(x, alpha),
+                                  exact_gradient(*scene_.exact, alpha, space().mesh()), 0);
     return std::sqrt(sum);
   }
 
@@ -78,6 +81,8 @@ class MembraneDiscretization final : public Discretization {
     const MembraneIterate seen(*on_mesh_, X);
     return (*bound_)(seen.iterate);
   }
+
+  std::vector<std::string> doubts() const override { return bound_ ? bound_->doubts() : std::vector<std::string>(); }
 
   CellEstimates cell_estimates() const override {
     CellEstimates of_cells;
@@ -117,6 +122,8 @@ class MembraneDiscretization final : public Discretization {
     return models::kkt_data(solution);
   }
 
+  Contact contact(const Vector& X) const override { return on_mesh_->contact(X); }
+  std::vector<double> values_at(const std::vector<Probe>& probes, const Vector& X) const override { return on_mesh_->values_at(probes, X); }
   output::Grid grid() const override { return space().display(); }
 
   std::vector<output::FieldData> fields(const Vector& X, const complementarity::ActiveSet& active,
@@ -150,10 +157,16 @@ class Membranes final : public StationaryModel {
   }
   std::string name() const override { return scene_.count == 1 ? "obstacle" : "membranes"; }
   std::string case_name() const override { return scene_.name == "data" ? "" : scene_.name; }
-  void check(const mesh::Mesh& mesh, const std::vector<std::string>& field_names) const override {
-    check_field_names(scene_, field_names);
+  std::vector<std::string> point_fields() const override { return MembraneLevel::point_fields(scene_); }
+  void check(const mesh::Mesh& mesh, const Wanted& wanted) const override {
+    check_field_names(scene_, wanted.fields);
+    place(wanted.expected, mesh);
+    place(wanted.probes, mesh);
+    const Boundary boundary = boundary_of(scene_, mesh);
+    check_held(scene_, boundary);
     check_functions(scene_, initial_, method_, mesh);
-    if (check_mesh_) check_mesh_(mesh, {boundary_of(scene_, mesh).dirichlet, scene_.interface_level_set, method_});
+    check_pieces(scene_, boundary, mesh);
+    if (check_mesh_) check_mesh_(mesh, {boundary.dirichlet, scene_.interface_level_set, method_});
   }
   std::unique_ptr<Discretization> discretize(const mesh::Hierarchy& hierarchy, int level) const override {
     if (!counted_) count_from(heights_of(scene_, hierarchy.levels.front(), 0).origin());

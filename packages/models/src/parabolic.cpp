@@ -4,6 +4,7 @@
 #include <cmath>
 #include <unordered_set>
 
+#include "exact_gradient.hpp"
 #include "heights.hpp"
 #include "membrane_kkt.hpp"
 #include "membrane_level.hpp"
@@ -22,6 +23,8 @@ using method::Coefficients;
 
 constexpr double gauss_point = 0.21132486540518711775;  ///< (1 - 1/sqrt 3)/2: the first of two on [0, 1], both of weight 1/2
 
+constexpr double finest = 1e-4;  ///< relative error in time that a method of first order is not asked to fall below
+
 /// a u + b v.
 Coefficients combination(double a, const Coefficients& u, double b, const Coefficients& v) {
   const Coefficients w("thixis::models::combination", u.extent(0));
@@ -38,13 +41,16 @@ struct Pair {
 class ParabolicEvolution final : public Evolution {
  public:
   ParabolicEvolution(const scene::MembraneScene& scene, const method::SpaceFactory& make_space, const method::MethodParams& method,
-                     const algebra::LinearParams& linear, mesh::Hierarchy hierarchy)
+                     const algebra::LinearParams& linear, mesh::Hierarchy hierarchy, std::optional<double> friedrichs,
+                     std::vector<Probe> probes)
       : origin_(heights_of(scene, hierarchy.levels.front(), 0).origin()),
         scene_(scene::counted_from(origin_, scene)),
         make_space_(make_space),
         method_(method),
         linear_(linear),
-        hierarchy_(std::move(hierarchy)) {
+        hierarchy_(std::move(hierarchy)),
+        friedrichs_(friedrichs),
+        probes_(std::move(probes)) {
     on_mesh_ = make_level();
   }
 
@@ -62,9 +68,17 @@ class ParabolicEvolution final : public Evolution {
     return on_mesh_->joined(x);
   }
 
+  void check(const std::vector<double>& times) const override {
+    if (steady_boundary(scene_)) return;
+    for (const double t : times) check_boundary(scene_, on_mesh_->boundary(), method_, space().mesh(), t);
+  }
+
   /// F_alpha <- (f_alpha, psi) + (u_alpha^{n-1}, psi)/tau - a_alpha(g, psi) - (g, psi)/tau with the lift g of the boundary values.
   void begin(const TimeStep& step, const Vector& before) override {
     const core::Region region("assembly");
+    step_ = step;
+    open_ = true;
+    begun_ = estimated_ = false;
     on_mesh_->move_to(step.begin);
     before_ = at(before);
     on_mesh_->move_to(step.end);
@@ -83,9 +97,12 @@ class ParabolicEvolution final : public Evolution {
     }
     on_mesh_->measure_from(on_mesh_->fields(before).u);
     X_before_ = Teuchos::rcp(new Vector(before, Teuchos::Copy));
-    step_ = step;
-    begun_ = open_ = true;
-    estimated_ = false;
+    begun_ = true;
+  }
+
+  void give_up() override {
+    if (open_) on_mesh_->move_to(step_.begin);
+    begun_ = open_ = estimated_ = false;
   }
 
   /// X^{n-1} + ratio (X^{n-1} - X^{n-2}), made complementary point by point.
@@ -115,6 +132,7 @@ class ParabolicEvolution final : public Evolution {
       estimated_ = true;
     }
     const MembraneIterate seen(*on_mesh_, X);
+    for (int alpha = 0; alpha < 2; ++alpha) seen_.u[alpha] = seen.iterate.u[alpha];
     return (*bound_)(seen.iterate);
   }
   CellEstimates cell_estimates() const override {
@@ -129,7 +147,18 @@ class ParabolicEvolution final : public Evolution {
   std::optional<StepErrors> step_errors() const override {
     if (!estimated_) return std::nullopt;
     const auto errors = bound_->errors();
-    return StepErrors{errors.time, errors.space};
+    double energy = 0;
+    for (int alpha = 0; alpha < 2; ++alpha) energy += space().energy(*scene_.tension[alpha], seen_.u[alpha]);
+    return StepErrors{errors.time, errors.space, finest * std::sqrt(step_.length() * energy)};
+  }
+
+  std::string remark() const override {
+    if (!estimated_ || bound_->resolved()) return {};
+    return fmt::format(
+        "between t = {:.6g} and {:.6g} a force changes in a way that the rule in time of the bound does not see: the bound takes in what "
+        "32 "
+        "parts of the step show. Take shorter steps (time/step, time/adaptive), or let one end where data jump (time/also).",
+        step_.begin, step_.end);
   }
 
   void accept(const Vector& X) override {
@@ -144,6 +173,11 @@ class ParabolicEvolution final : public Evolution {
   std::optional<double> energy_error() const override {
     if (!scene_.exact) return std::nullopt;
     return std::sqrt(squared_error_);
+  }
+
+  std::optional<double> step_energy_error(const Vector& X) const override {
+    if (!scene_.exact) return std::nullopt;
+    return std::sqrt(step_error(at(X)));
   }
 
   /// Nothing before the first step and after one that was not estimated.
@@ -171,36 +205,27 @@ class ParabolicEvolution final : public Evolution {
   std::vector<std::string> series_names() const override {
     std::vector<std::string> names = {"contact_area", "contact_force", "largest_gap"};
     if (scene_.exact) names.insert(names.end(), {"energy_error", "l2_error_u1", "l2_error_u2"});
+    for (std::size_t i = 0; i < probes_.size(); ++i)
+      for (const auto& field : MembraneLevel::point_fields(scene_)) names.push_back(i == 0 ? field : fmt::format("{}_{}", field, i + 1));
     return names;
   }
 
-  /// (sum_l (psi_l, 1) over the points in contact, sum_l <lambda_h, psi_l>, max_l gap_l; of the errors at this time the energy norm and the
-  /// L² norms).
+  /// (contact area and force, max_l gap_l; of the errors at this time the energy norm and the L² norms; the fields at the probes).
   std::vector<double> series(const Vector& X) const override {
-    const Fields x = on_mesh_->fields(X);
-    const MembraneProblem& problem = on_mesh_->problem();
-    Vector opening(problem.points()), scale(problem.points());
-    gap(problem.membranes(), x.u, opening);
-    problem.scaling(scale);
-    double area = 0, force = 0, largest = 0;
-    {
-      const auto read = [](const Vector& v) { return algebra::host_view(v); };
-      const auto weight = read(areas()), K = read(opening), s = read(scale), lambda = read(x.lambda), D = read(space().pairing());
-      for (std::size_t l = 0; l < K.extent(0); ++l) {
-        if (s(l) * lambda(l) > K(l)) area += weight(l);
-        force += D(l) * lambda(l);
-        largest = std::max(largest, K(l));
-      }
-    }
-    std::vector<double> values = {comm().sum(area), comm().sum(force), comm().max(largest)};
+    const Contact contact = on_mesh_->contact(X);
+    std::vector<double> values = {contact.area, contact.force, on_mesh_->largest_gap(X)};
     if (scene_.exact) {
       const Pair now = at(X);
       const double t = on_mesh_->time();
       values.push_back(std::sqrt(squared_energy_error(now, t)));
       for (int alpha = 0; alpha < 2; ++alpha) values.push_back(std::sqrt(space().l2_error(now.u[alpha], *scene_.exact->u[alpha], t)));
     }
+    if (!probes_.empty())
+      for (const double value : on_mesh_->values_at(probes_, X)) values.push_back(value);
     return values;
   }
+  std::optional<Contact> contact(const Vector& X) const override { return on_mesh_->contact(X); }
+  std::vector<double> values_at(const std::vector<Probe>& probes, const Vector& X) const override { return on_mesh_->values_at(probes, X); }
 
   output::Grid grid() const override { return space().display(); }
   std::vector<output::FieldData> fields(const Vector& X, const complementarity::ActiveSet& active,
@@ -223,15 +248,15 @@ class ParabolicEvolution final : public Evolution {
   Teuchos::RCP<Vector> restore(const output::StoredCheckpoint& stored) override {
     replay(stored);
     auto X = on_mesh_->restore(stored);
-    last_length_ = stored.attribute("last_length");
+    last_length_ = stored.number("last_length", 0);
     before_last_ = last_length_ > 0 ? on_mesh_->restore(stored, of_before) : Teuchos::null;
-    on_mesh_->move_to(stored.attribute("data_time"));
-    squared_error_ = stored.attribute("squared_energy_error");
+    on_mesh_->move_to(stored.number("data_time", 0));
+    squared_error_ = stored.number("squared_energy_error", 0);
     begun_ = open_ = estimated_ = false;
-    bounded_ = stored.attribute("bounded") != 0;
+    bounded_ = stored.count("bounded", 1) != 0;
     restored_bound_.clear();
     for (const std::string& name : equilibration::StepBound::names_of_sums())
-      if (bounded_) restored_bound_[name] = stored.attribute(name);
+      if (bounded_) restored_bound_[name] = stored.number(name);
     if (bound_ && bounded_) bound_->restore(restored_bound_);
     return X;
   }
@@ -281,7 +306,7 @@ class ParabolicEvolution final : public Evolution {
   void go_to_finest() {
     on_mesh_ = make_level();
     bound_.reset();
-    X_before_ = before_last_ = areas_ = Teuchos::null;
+    X_before_ = before_last_ = Teuchos::null;
     weight_ = 0;
     begun_ = open_ = estimated_ = false;
   }
@@ -303,7 +328,7 @@ class ParabolicEvolution final : public Evolution {
     auto contact = on_mesh_->contact_problem();
     contact.time = time;
     return std::make_unique<equilibration::StepBound>(on_mesh_->polynomials(), contact, hierarchy_,
-                                                      static_cast<int>(hierarchy_.levels.size()) - 1);
+                                                      static_cast<int>(hierarchy_.levels.size()) - 1, friedrichs_);
   }
 
   /// With the boundary values of the time of the data.
@@ -315,7 +340,7 @@ class ParabolicEvolution final : public Evolution {
   double squared_energy_error(const Pair& now, double t) const {
     double sum = 0;
     for (int alpha = 0; alpha < 2; ++alpha)
-      sum += space().energy_error(*scene_.tension[alpha], now.u[alpha], scene_.exact->gradient[alpha], t);
+      sum += space().energy_error(*scene_.tension[alpha], now.u[alpha], exact_gradient(*scene_.exact, alpha, space().mesh()), t);
     return sum;
   }
 
@@ -330,23 +355,14 @@ class ParabolicEvolution final : public Evolution {
     return step_.length() * sum / 2;
   }
 
-  /// (psi_l, 1) at the contact points; set up at the first call. Collective.
-  const Vector& areas() const {
-    if (areas_.is_null()) {
-      const std::vector<scene::FieldPtr> zero(space().mesh().tags.size(), scene::constant(0));
-      const auto one = scene::constant(1);
-      areas_ = Teuchos::rcp(new Vector(space().map()));
-      space().load(*one, *one, {zero, zero}, 0, *areas_);
-    }
-    return *areas_;
-  }
-
   double origin_;                     ///< of heights: where the membranes are held at the beginning
   const scene::MembraneScene scene_;  ///< with heights counted from there
   const method::SpaceFactory& make_space_;
   method::MethodParams method_;
   algebra::LinearParams linear_;
   mesh::Hierarchy hierarchy_;
+  std::optional<double> friedrichs_;                ///< given in the deck
+  std::vector<Probe> probes_;                       ///< of series.csv
   std::map<int, std::vector<GlobalIndex>> marked_;  ///< cells whose refinement made this level
   std::unique_ptr<MembraneLevel> on_mesh_;
   double weight_ = 0;  ///< 1/tau in the matrices; 0: none yet
@@ -354,6 +370,7 @@ class ParabolicEvolution final : public Evolution {
   bool begun_ = false;                      ///< step_ and before_ are those of the X at its end
   bool open_ = false;                       ///< … and it has not been accepted
   Pair before_;                             ///< u^{n-1}
+  Pair seen_;                               ///< u of the last estimate
   Teuchos::RCP<const Vector> X_before_;     ///< X^{n-1} of the step begun
   Teuchos::RCP<const Vector> before_last_;  ///< at the begin of the last step accepted, whose length is last_length_; null: none
   double last_length_ = 0;
@@ -362,29 +379,40 @@ class ParabolicEvolution final : public Evolution {
   bool estimated_ = false;                           ///< in the step begun
   bool bounded_ = false;                             ///< every step so far was estimated
   std::map<std::string, double> restored_bound_;     ///< sums of a checkpoint
-  mutable Teuchos::RCP<Vector> areas_;
 };
 
 class ParabolicMembranes final : public UnsteadyModel {
  public:
   ParabolicMembranes(scene::MembraneScene scene, method::SpaceFactory make_space, method::MethodParams method, algebra::LinearParams linear,
-                     method::MeshCheck check_mesh)
-      : scene_(std::move(scene)), make_space_(std::move(make_space)), check_mesh_(std::move(check_mesh)), method_(method), linear_(linear) {
+                     method::MeshCheck check_mesh, std::optional<double> friedrichs)
+      : scene_(std::move(scene)),
+        make_space_(std::move(make_space)),
+        check_mesh_(std::move(check_mesh)),
+        method_(method),
+        linear_(linear),
+        friedrichs_(friedrichs) {
     for (int alpha = 0; alpha < 2; ++alpha)
       if (!scene_.initial[alpha] && scene_.exact) scene_.initial[alpha] = scene_.exact->u[alpha];
   }
   std::string name() const override { return "parabolic membranes"; }
+  std::vector<std::string> point_fields() const override { return MembraneLevel::point_fields(scene_); }
   std::string case_name() const override { return scene_.name == "data" ? "" : scene_.name; }
 
+  void check(const mesh::MeshParams& params, const std::vector<double>& times) const override {
+    if (!steady_boundary(scene_)) check_boundary(scene_, params, times);
+  }
+
   std::unique_ptr<Evolution> evolve(const mesh::MeshParams& params, const core::Comm& comm, const std::string& folder,
-                                    const std::vector<std::string>& field_names) const override {
+                                    const Wanted& wanted) const override {
     mesh::Hierarchy hierarchy;
     {
       const core::Region region("mesh");
       hierarchy = mesh::build(params, comm, folder);
     }
     const mesh::Mesh& mesh = hierarchy.finest();
-    check_field_names(scene_, field_names);
+    check_field_names(scene_, wanted.fields);
+    place(wanted.expected, mesh);
+    place(wanted.probes, mesh);
     for (int alpha = 0; alpha < 2; ++alpha)
       if (!scene_.initial[alpha])
         throw core::InputError(
@@ -392,7 +420,7 @@ class ParabolicMembranes final : public UnsteadyModel {
     check_functions(scene_, {scene_.initial[0], scene_.initial[1], nullptr}, method_, mesh);
     check_order({scene_.initial[0], scene_.initial[1]}, method_, mesh);
     if (check_mesh_) check_mesh_(mesh, {boundary_of(scene_, mesh).dirichlet, scene_.interface_level_set, method_});
-    return std::make_unique<ParabolicEvolution>(scene_, make_space_, method_, linear_, std::move(hierarchy));
+    return std::make_unique<ParabolicEvolution>(scene_, make_space_, method_, linear_, std::move(hierarchy), friedrichs_, wanted.probes);
   }
 
  private:
@@ -401,13 +429,15 @@ class ParabolicMembranes final : public UnsteadyModel {
   method::MeshCheck check_mesh_;
   method::MethodParams method_;
   algebra::LinearParams linear_;
+  std::optional<double> friedrichs_;
 };
 
 }  // namespace
 
 std::unique_ptr<UnsteadyModel> parabolic_membranes(scene::MembraneScene scene, method::SpaceFactory make_space, method::MethodParams method,
-                                                   algebra::LinearParams linear, method::MeshCheck check_mesh) {
-  return std::make_unique<ParabolicMembranes>(std::move(scene), std::move(make_space), method, linear, std::move(check_mesh));
+                                                   algebra::LinearParams linear, method::MeshCheck check_mesh,
+                                                   std::optional<double> friedrichs) {
+  return std::make_unique<ParabolicMembranes>(std::move(scene), std::move(make_space), method, linear, std::move(check_mesh), friedrichs);
 }
 
 }  // namespace thixis::models

@@ -15,6 +15,7 @@
 #include "two_phase_predictor.hpp"
 #include "two_phase_probes.hpp"
 #include "two_phase_problem.hpp"
+#include "two_phase_verifier.hpp"
 
 namespace thixis::models {
 namespace {
@@ -22,6 +23,7 @@ namespace {
 using algebra::Vector;
 
 constexpr double trace_of_gas = 1e-8;  // s_g beyond which a cell counts as two-phase
+constexpr double unsettled = 1e-2;     // by which iterates of the rule adaptive may leave the range of a state, in its units
 
 const std::vector<std::string>& names_of_unknowns() {
   static const std::vector<std::string> names = {"s_g", "P", "chi"};
@@ -47,13 +49,15 @@ class BoundSoFar {
   void add(const std::optional<complementarity::Estimate>& of_step) {
     every_step_ = every_step_ && of_step.has_value();
     if (!every_step_) return;
-    const double parts[] = {of_step->total, of_step->discretization, of_step->linearization, of_step->algebraic};
+    const double parts[] = {of_step->total, of_step->discretization, of_step->linearization, of_step->algebraic, of_step->time.value_or(0)};
     for (std::size_t i = 0; i < squares_.size(); ++i) squares_[i] += parts[i] * parts[i];
     any_step_ = true;
   }
   std::optional<complementarity::Estimate> value() const {
     if (!every_step_ || !any_step_) return std::nullopt;
-    return complementarity::Estimate{std::sqrt(squares_[0]), std::sqrt(squares_[1]), std::sqrt(squares_[2]), std::sqrt(squares_[3]), 0, 0};
+    complementarity::Estimate eta{std::sqrt(squares_[0]), std::sqrt(squares_[1]), std::sqrt(squares_[2]), std::sqrt(squares_[3]), 0, 0};
+    eta.time = std::sqrt(squares_[4]);
+    return eta;
   }
   void save(std::map<std::string, double>& attributes) const {
     attributes["bound_every_step"] = every_step_;
@@ -61,47 +65,28 @@ class BoundSoFar {
     for (std::size_t i = 0; i < squares_.size(); ++i) attributes[names[i]] = squares_[i];
   }
   void restore(const output::StoredCheckpoint& stored) {
-    every_step_ = stored.attribute("bound_every_step") != 0;
-    any_step_ = stored.attribute("bound_any_step") != 0;
-    for (std::size_t i = 0; i < squares_.size(); ++i) squares_[i] = stored.attribute(names[i]);
+    every_step_ = stored.count("bound_every_step", 1) != 0;
+    any_step_ = stored.count("bound_any_step", 1) != 0;
+    for (std::size_t i = 0; i < squares_.size(); ++i) squares_[i] = stored.number(names[i], 0);
   }
 
  private:
-  static constexpr const char* names[] = {"bound_total", "bound_discretization", "bound_linearization", "bound_algebraic"};
-  std::array<double, 4> squares_ = {0, 0, 0, 0};
+  static constexpr const char* names[] = {"bound_total", "bound_discretization", "bound_linearization", "bound_algebraic", "bound_time"};
+  std::array<double, 5> squares_ = {0, 0, 0, 0, 0};
   bool every_step_ = true, any_step_ = false;
 };
-
-/// | sum over the faces of K of |F| rho_w kappa/(mu_l d_F) P_ref / (|K| mass_w) |, over all cells: the part of the equations of water that
-/// the pressure alone makes, without the cancellation between its two sides, per time. Collective.
-double rate_of_pressures(const TwoPhaseOperator& flow, const FlowScales& scales) {
-  const auto grid = fv::on_host(flow.grid());
-  const TwoPhaseLaws& laws = flow.laws();
-  double square = 0;
-  for (LocalIndex K = 0; K < flow.grid().owned_cells; ++K) {
-    double conductance = 0;
-    for (LocalIndex f = grid.cell_face_begin(K); f < grid.cell_face_begin(K + 1); ++f) {
-      const LocalIndex F = grid.cell_faces(f);
-      if (grid.face_cells(F, 1) >= 0) conductance += grid.face_area(F) / grid.face_distance(F);
-    }
-    const double rate =
-        conductance * laws.rho_w * laws.permeability / laws.viscosity_l * scales.pressure / (grid.volume(K) * scales.mass[water]);
-    square += rate * rate;
-  }
-  return std::sqrt(flow.grid().comm.sum(square));
-}
 
 class TwoPhaseEvolution final : public Evolution {
  public:
   TwoPhaseEvolution(fv::Grid grid, const scene::TwoPhaseScene& scene, const algebra::LinearParams& linear, double seconds_per_unit,
-                    const std::vector<double>& probes, const TwoPhaseBoundParams& bound)
+                    const std::vector<Probe>& probes, const TwoPhaseBoundParams& bound)
       : bound_params_(bound),
         flow_(std::move(grid), scene, seconds_per_unit),
         initial_(flow_.initial()),
         problem_(flow_, FlowScales(flow_.laws(), reference_pressure(flow_, *initial_)), linear, initial_),
-        balance_(flow_),
+        verifier_(flow_.grid(), scene, seconds_per_unit, problem_.scales().pressure),
         probes_(flow_.grid(), probes),
-        rate_of_pressures_(rate_of_pressures(flow_, problem_.scales())),
+        owed_("thixis::models::owed", flow_.grid().owned_cells),
         jumps_(scene.jumps) {
     require_definite_pressure(scene);
   }
@@ -117,14 +102,18 @@ class TwoPhaseEvolution final : public Evolution {
   Teuchos::RCP<Vector> initial() override { return Teuchos::rcp(new Vector(*initial_, Teuchos::Copy)); }
   void begin(const TimeStep& step, const Vector& before) override {
     const core::Region region("assembly");
-    problem_.begin(flow_.step(step.begin, step.end, before));
+    FlowStep flow_step = flow_.step(step.begin, step.end, before);
+    Kokkos::deep_copy(flow_step.owed, owed_);
+    problem_.begin(std::move(flow_step));
+    step_ = step;
+    found_.reset();
     before_ = Teuchos::rcp(new Vector(before, Teuchos::Copy));
     of_step_.reset();
     bound_begun_ = false;
   }
   complementarity::Problem& problem() override { return problem_; }
-  /// A unit in the last place of the pressures, in the equations of water.
-  double round_off() const override { return std::numeric_limits<double>::epsilon() * problem_.step().length * rate_of_pressures_; }
+  double round_off() const override { return problem_.round_off(); }
+  void give_up() override { of_step_.reset(); }
   bool predict(Vector& X) override {
     if (before_last_.is_null()) return false;
     Tpetra::deep_copy(X, *predicted(flow_, *before_, *before_last_, problem_.step().length / last_length_));
@@ -136,6 +125,7 @@ class TwoPhaseEvolution final : public Evolution {
     if (!bound_begun_) bound_->begin(problem_.step(), *before_);
     bound_begun_ = true;
     of_step_ = (*bound_)(X, problem_.linearization());
+    of_step_->time = bound_->step_errors().time;
     return *of_step_;
   }
   CellEstimates cell_estimates() const override {
@@ -152,16 +142,21 @@ class TwoPhaseEvolution final : public Evolution {
     return bound_->step_errors();
   }
 
+  std::string objection(const Vector& X, double tolerance, bool conditions) override {
+    found_ = verified(X);
+    const std::string why = found_->objection(conditions ? tolerance : std::max(tolerance, unsettled), conditions);
+    return !why.empty() || !conditions ? why : balance_.objection(*found_, tolerance);
+  }
   void accept(const Vector& X) override {
-    balance_.add(problem_.step(), X);
+    balance_.add(found_ ? *found_ : verified(X));
+    if (!bound_params_.adaptive) Kokkos::deep_copy(owed_, problem_.left(X));
     bound_so_far_.add(of_step_);
     before_last_ = before_;
     last_length_ = problem_.step().length;
   }
   std::optional<complementarity::Estimate> estimate_so_far() const override { return bound_so_far_.value(); }
   std::string bound_name() const override {
-    return bound_params_.measure == complementarity::Measure::residual ? "dual norm of the residuals at most"
-                                                                       : "estimate of the literature";
+    return bound_params_.measure == complementarity::Measure::residual ? "dual norm of the residuals about" : "estimate of the literature";
   }
   std::vector<Balance> balances() const override { return balance_.balances(); }
 
@@ -197,6 +192,16 @@ class TwoPhaseEvolution final : public Evolution {
     return values;
   }
 
+  std::vector<double> values_at(const std::vector<Probe>& probes, const Vector& X) const override {
+    std::vector<double> values;
+    if (probes.empty()) return values;
+    for (const auto& at : TwoPhaseProbes(flow_.grid(), probes)(X)) {
+      const PhaseState state = flow_.laws().state(at[gas_saturation], at[pressure], at[dissolved]);
+      values.insert(values.end(), {state.s_g, state.P, state.P_g.value, state.chi});
+    }
+    return values;
+  }
+
   output::Grid grid() const override { return fv::display(flow_.grid()); }
   std::vector<output::FieldData> fields(const Vector& X, const complementarity::ActiveSet& active,
                                         const std::vector<std::string>& names) const override;
@@ -207,6 +212,7 @@ class TwoPhaseEvolution final : public Evolution {
     state.attributes["last_length"] = last_length_;
     add_blocks("", X, state.blocks);
     if (!before_last_.is_null()) add_blocks(of_before, *before_last_, state.blocks);
+    add_owed(state.blocks);
     return state;
   }
 
@@ -220,13 +226,15 @@ class TwoPhaseEvolution final : public Evolution {
             cells()));
     balance_.restore(stored);
     bound_so_far_.restore(stored);
-    last_length_ = stored.attribute("last_length");
+    last_length_ = stored.number("last_length", 0);
     if (last_length_ > 0) before_last_ = fetched(of_before, stored);
+    fetch_owed(stored);
     return fetched("", stored);
   }
 
  private:
   static constexpr const char* of_before = " before";
+  static constexpr const char* names_of_owed[components] = {"owed water", "owed hydrogen"};
 
   /// Without gas and without a part of the boundary where it is given, the pressure of incompressible water has no level. Collective.
   void require_definite_pressure(const scene::TwoPhaseScene& scene) const {
@@ -255,10 +263,44 @@ class TwoPhaseEvolution final : public Evolution {
     const auto X = Teuchos::rcp(new Vector(flow_.map()));
     const auto x = algebra::host_overwrite(*X);
     for (int u = 0; u < unknowns_per_cell; ++u) {
-      const auto values = stored.fetch(names_of_unknowns()[u] + suffix, owned_ids());
+      const auto values = stored.fetch_finite(names_of_unknowns()[u] + suffix, owned_ids());
       for (LocalIndex K = 0; K < flow_.grid().owned_cells; ++K) x(unknowns_per_cell * K + u) = values[K];
     }
     return X;
+  }
+
+  void add_owed(std::vector<output::CheckpointBlock>& blocks) const {
+    const auto owed = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), owed_);
+    for (int c = 0; c < components; ++c) {
+      output::CheckpointBlock block{names_of_owed[c], owned_ids(), {}};
+      for (LocalIndex K = 0; K < flow_.grid().owned_cells; ++K) block.values.push_back(owed(K, c));
+      blocks.push_back(std::move(block));
+    }
+  }
+  void fetch_owed(const output::StoredCheckpoint& stored) const {
+    const auto owed = Kokkos::create_mirror_view(owed_);
+    for (int c = 0; c < components; ++c) {
+      if (stored.size(names_of_owed[c]) != cells()) return;
+      const auto values = stored.fetch(names_of_owed[c], owned_ids());
+      for (LocalIndex K = 0; K < flow_.grid().owned_cells; ++K) owed(K, c) = values[K];
+    }
+    Kokkos::deep_copy(owed_, owed);
+  }
+
+  /// What the verifier finds at the end of the step begun. Collective.
+  FlowFindings verified(const Vector& X) const {
+    const auto owed = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), problem_.step().owed);
+    std::vector<TwoPhaseVerifier::Owed> debts(owed.extent(0));
+    for (std::size_t K = 0; K < debts.size(); ++K) debts[K] = {owed(K, water), owed(K, hydrogen)};
+    return verifier_(step_.begin, step_.end, of_cells(before_.is_null() ? X : *before_), of_cells(X), debts);
+  }
+  std::vector<TwoPhaseVerifier::State> of_cells(const Vector& X) const {
+    const Vector all = flow_.with_ghosts(X);
+    const auto x = algebra::host_view(all);
+    std::vector<TwoPhaseVerifier::State> states(flow_.grid().cells);
+    for (LocalIndex K = 0; K < flow_.grid().cells; ++K)
+      for (int u = 0; u < unknowns_per_cell; ++u) states[K][u] = x(unknowns_per_cell * K + u);
+    return states;
   }
 
   std::vector<GlobalIndex> owned_ids() const {
@@ -270,9 +312,12 @@ class TwoPhaseEvolution final : public Evolution {
   TwoPhaseOperator flow_;
   Teuchos::RCP<Vector> initial_;
   TwoPhaseProblem problem_;
+  TwoPhaseVerifier verifier_;
   TwoPhaseBalance balance_;
   TwoPhaseProbes probes_;
-  double rate_of_pressures_;
+  fv::View<double* [components]> owed_;  ///< what the last step accepted has left of the balances of the owned cells [kg/m^3]
+  TimeStep step_;                        ///< the one begun
+  std::optional<FlowFindings> found_;    ///< at the X of the step begun that was judged last
   std::vector<double> jumps_;
   Teuchos::RCP<const Vector> before_;       ///< X^{n-1} of the step begun
   Teuchos::RCP<const Vector> before_last_;  ///< at the beginning of the last step accepted, whose length is last_length_ [s]; null: none
@@ -283,30 +328,24 @@ class TwoPhaseEvolution final : public Evolution {
   BoundSoFar bound_so_far_;
 };
 
-/// The multiplier is G/(H P_ref), the gap s_g; both are of size 1 where they matter, but for saturations of a small gas zone.
+/// The multiplier is G/(H P_ref), the gap s_g; both are of size 1 where they matter, but for saturations of a small gas zone. What the
+/// multiplier is compared with, and the balances, are the verifier's.
 complementarity::KktData TwoPhaseEvolution::kkt_data(const Vector& X) const {
   const auto gap = Teuchos::rcp(new Vector(flow_.cells())), claimed = Teuchos::rcp(new Vector(flow_.cells())),
              recomputed = Teuchos::rcp(new Vector(flow_.cells()));
-  const double unit = 1 / (flow_.laws().H * problem_.scales().pressure);
   problem_.arguments(X, *gap, *claimed);
-  claimed->scale(unit);
-  const auto states = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), flow_.states(X));
-  double largest = 0;
+  claimed->scale(1 / (flow_.laws().H * problem_.scales().pressure));
+  const FlowFindings found = verified(X);
   {
     const auto out = algebra::host_overwrite(*recomputed);
-    for (LocalIndex K = 0; K < flow_.grid().owned_cells; ++K) {
-      out(K) = unit * flow_.laws().undersaturation(states(K));
-      largest = std::max(largest, std::abs(states(K).s_g));
-    }
+    std::copy(found.undersaturation.begin(), found.undersaturation.end(), out.data());
   }
-  Vector R(flow_.map());
-  if (problem_.step().length > 0) problem_.equations(X, R);
   complementarity::KktData data;
   data.gap = gap;
   data.claimed = claimed;
   data.equilibrium = {recomputed};
-  data.unbalanced = R.normInf();
-  data.gap_scale = std::max(comm().max(largest), 1e-2);
+  data.unbalanced = std::max(found.unbalanced[water].violation, found.unbalanced[hydrogen].violation);
+  data.gap_scale = std::max(gap->normInf(), 1e-2);
   return data;
 }
 
@@ -334,35 +373,36 @@ std::vector<output::FieldData> TwoPhaseEvolution::fields(const Vector& X, const 
 
 class TwoPhaseModel final : public UnsteadyModel {
  public:
-  TwoPhaseModel(scene::TwoPhaseScene scene, algebra::LinearParams linear, double seconds_per_unit, std::vector<double> probes,
-                const TwoPhaseBoundParams& bound)
-      : scene_(std::move(scene)), linear_(linear), seconds_per_unit_(seconds_per_unit), probes_(std::move(probes)), bound_(bound) {}
+  TwoPhaseModel(scene::TwoPhaseScene scene, algebra::LinearParams linear, double seconds_per_unit, const TwoPhaseBoundParams& bound)
+      : scene_(std::move(scene)), linear_(linear), seconds_per_unit_(seconds_per_unit), bound_(bound) {}
 
   std::string name() const override { return "two-phase"; }
+  std::vector<std::string> point_fields() const override { return {"s_g", "p_l", "p_g", "chi"}; }
   std::string case_name() const override { return scene_.name == "flow" ? "" : scene_.name; }
 
   std::unique_ptr<Evolution> evolve(const mesh::MeshParams& mesh, const core::Comm& comm, const std::string& folder,
-                                    const std::vector<std::string>& field_names) const override {
-    for (const auto& name : field_names)
+                                    const Wanted& wanted) const override {
+    for (const auto& name : wanted.fields)
       if (std::find(names_of_fields().begin(), names_of_fields().end(), name) == names_of_fields().end())
         throw core::InputError(
             fmt::format("output/fields: there is no field '{}'; write all, none, or some of {}.", name, core::join(names_of_fields())));
-    return std::make_unique<TwoPhaseEvolution>(fv::build(mesh, comm, folder), scene_, linear_, seconds_per_unit_, probes_, bound_);
+    fv::Grid grid = fv::build(mesh, comm, folder);
+    if (!wanted.expected.empty()) TwoPhaseProbes(grid, wanted.expected);
+    return std::make_unique<TwoPhaseEvolution>(std::move(grid), scene_, linear_, seconds_per_unit_, wanted.probes, bound_);
   }
 
  private:
   scene::TwoPhaseScene scene_;
   algebra::LinearParams linear_;
   double seconds_per_unit_;
-  std::vector<double> probes_;
   TwoPhaseBoundParams bound_;
 };
 
 }  // namespace
 
 std::unique_ptr<UnsteadyModel> two_phase(scene::TwoPhaseScene scene, algebra::LinearParams linear, double seconds_per_unit,
-                                         std::vector<double> probes, const TwoPhaseBoundParams& bound) {
-  return std::make_unique<TwoPhaseModel>(std::move(scene), linear, seconds_per_unit, std::move(probes), bound);
+                                         const TwoPhaseBoundParams& bound) {
+  return std::make_unique<TwoPhaseModel>(std::move(scene), linear, seconds_per_unit, bound);
 }
 
 }  // namespace thixis::models

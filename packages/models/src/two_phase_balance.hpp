@@ -2,18 +2,19 @@
 #include <array>
 
 #include "thixis/models/evolution.hpp"
-#include "two_phase_operator.hpp"
+#include "two_phase_findings.hpp"
+#include "two_phase_laws.hpp"
 
 namespace thixis::models {
 
-/// Keeps account of the masses of water and hydrogen over the steps, from masses in the cells, sources and flows through the boundary
-/// alone: what the solver believes about its residual plays no part.
+/// Keeps account of the masses of water and hydrogen over the steps, from what the verifier finds: what the solver believes about its
+/// residual plays no part.
 class TwoPhaseBalance {
  public:
-  explicit TwoPhaseBalance(const TwoPhaseOperator& flow) : flow_(flow) {}
-
-  /// The step ends with X: its defect is what the masses in place have changed by and nothing has brought. Collective.
-  void add(const FlowStep& step, const algebra::Vector& X);
+  /// The step ends.
+  void add(const FlowFindings& found);
+  /// Why the step may not end so: what it, or all steps with it, have lost of a component; empty: it may.
+  std::string objection(const FlowFindings& found, double tolerance) const;
 
   /// Of water: relative to the water in place; of hydrogen: to all that has come in so far, or where nothing has, to what is in place.
   std::vector<Balance> balances() const;
@@ -29,9 +30,9 @@ class TwoPhaseBalance {
     double brought = 0;   ///< by sources and through the boundary, what came in alone [kg]
     double in_place = 0;  ///< at the end of the last step [kg]
   };
-  double reference(int component) const;
+  static double reference(int component, const Account& account);
+  static Account added(Account account, int component, const FlowFindings& found);
 
-  const TwoPhaseOperator& flow_;
   std::array<Account, components> accounts_;
 };
 

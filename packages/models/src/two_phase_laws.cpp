@@ -1,5 +1,7 @@
 #include "two_phase_laws.hpp"
 
+#include "thixis/core/error.hpp"
+
 namespace thixis::models {
 namespace {
 
@@ -24,6 +26,11 @@ void set_quadratic(TwoPhaseLaws& laws, bool wanted) {
   laws.a = 2 * P.value / end - P.slope;
   laws.b = (P.slope - P.value / end) / end;
   laws.quadratic = wanted;
+  if (wanted && !(laws.a > 0))
+    throw core::InputError(
+        "scene/flow/capillary law: with these S_lr, S_gr, n the quadratic law that meets van Genuchten's at s_g = 0.1 would fall; write "
+        "van "
+        "genuchten.");
 }
 
 }  // namespace

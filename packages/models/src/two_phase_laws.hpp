@@ -41,9 +41,9 @@ struct FaceFlux {
 ///
 ///     P_cp = P_r (S_e^{-1/m} - 1)^{1/n},   k_rl = √S_e (1 - (1 - S_e^{1/m})^m)²,   k_rg = √(1-S_e) (1 - S_e^{1/m})^{2m},   m = 1 - 1/n.
 ///
-/// P_cp and k_rl have infinite slopes at e = 0: for e < eps they are straight lines to 0 and 1 there. P_cp goes on along that line for
-/// e < 0, where k_rl = 1 and k_rg = 0. For e > dry, far from all states of interest, P_cp and k_rg go on along their tangents, and k_rl = 0
-/// for e >= 1, so that all laws are finite for every finite s_g.
+/// P_cp and k_rl have infinite slopes at e = 0: for e < eps they are straight lines, P_cp to 0 at s_g = 0 and on below, k_rl to 1 at e = 0.
+/// Gas below S_gr does not move: k_rg = 0, k_rl = 1 for e < 0. For e > dry, far from all states of interest, P_cp and k_rg go on along
+/// their tangents, and k_rl = 0 for e >= 1, so that all laws are finite for every finite s_g.
 struct TwoPhaseLaws {
   double porosity, permeability, viscosity_l, viscosity_g;
   double rho_w;              ///< density of water, and of the liquid in its weight
@@ -86,7 +86,10 @@ struct TwoPhaseLaws {
   KOKKOS_INLINE_FUNCTION Law capillary(double s_g) const {
     if (quadratic && s_g < end_of_quadratic) return s_g < 0 ? Law{a * s_g, a} : Law{(a + b * s_g) * s_g, a + 2 * b * s_g};
     const double e = e_of(s_g);
-    if (e < eps) return by_s_g({slope_wet_c * e, slope_wet_c});
+    if (e < eps) {
+      const double wet = width + S_gr / eps;  // the line ends at s_g = eps wet
+      return {slope_wet_c * (s_g / wet), slope_wet_c / wet};
+    }
     if (e > dry) return by_s_g({dry_c.value + dry_c.slope * (e - dry), dry_c.slope});
     return by_s_g(true_capillary(e));
   }

@@ -6,6 +6,7 @@
 
 #include "thixis/core/error.hpp"
 #include "thixis/core/text.hpp"
+#include "thixis/mesh/groups.hpp"
 
 namespace thixis::models {
 namespace {
@@ -13,7 +14,7 @@ namespace {
 using algebra::Vector;
 using scene::FlowBoundaryKind;
 
-algebra::MapPtr with_ghosts(const fv::Grid& grid) {
+algebra::MapPtr columns_of(const fv::Grid& grid) {
   std::vector<GlobalIndex> ids;
   ids.reserve(static_cast<std::size_t>(unknowns_per_cell) * grid.cells);
   for (LocalIndex K = 0; K < grid.cells; ++K)
@@ -45,13 +46,13 @@ Places centres(const fv::Grid& grid) {
   return places;
 }
 
-/// Midpoints of the faces of one part of the boundary.
+/// Midpoints of the faces of the boundary that lie in a group.
 Places part_of_boundary(const fv::Grid& grid, const std::string& name) {
   const auto tag = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), grid.face_tag);
   const auto centre = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), grid.face_centre);
   Places places;
   for (LocalIndex F = 0; F < grid.faces; ++F)
-    if (tag(F) >= 0 && grid.tags[tag(F)] == name) places.add(F, centre(F, 0), centre(F, 1));
+    if (tag(F) >= 0 && mesh::is_in_group(grid.tags[tag(F)], name)) places.add(F, centre(F, 0), centre(F, 1));
   return places;
 }
 
@@ -131,7 +132,7 @@ TwoPhaseOperator::TwoPhaseOperator(fv::Grid grid, const scene::TwoPhaseScene& sc
       laws_(two_phase_laws(scene)),
       cells_(algebra::map_of({grid_.cell_id.begin(), grid_.cell_id.begin() + grid_.owned_cells}, grid_.comm)),
       map_(algebra::interlaced(cells_, unknowns_per_cell)),
-      column_map_(with_ghosts(grid_)),
+      column_map_(columns_of(grid_)),
       import_(Teuchos::rcp(new algebra::Import(map_, column_map_))),
       face_kind_("thixis::models::face_kind", grid_.faces) {
   set_boundary(scene);
@@ -140,12 +141,11 @@ TwoPhaseOperator::TwoPhaseOperator(fv::Grid grid, const scene::TwoPhaseScene& sc
 void TwoPhaseOperator::set_boundary(const scene::TwoPhaseScene& scene) {
   const auto kind = Kokkos::create_mirror_view(face_kind_);
   Kokkos::deep_copy(kind, FlowBoundaryKind::no_flow);
-  for (const auto& [tag, part] : scene.boundary) {
-    if (std::find(grid_.tags.begin(), grid_.tags.end(), tag) == grid_.tags.end())
-      throw core::InputError(
-          fmt::format("scene/flow/boundary/{}: the mesh has no such part of the boundary; write one of: {}.", tag, core::join(grid_.tags)));
-    for (const LocalIndex F : part_of_boundary(grid_, tag).index) kind(F) = part.kind;
-  }
+  std::vector<std::string> names;
+  for (const auto& [name, part] : scene.boundary) names.push_back(name);
+  mesh::named_groups(grid_.tags, names, "scene/flow/boundary");
+  for (const auto& [name, part] : scene.boundary)
+    for (const LocalIndex F : part_of_boundary(grid_, name).index) kind(F) = part.kind;
   Kokkos::deep_copy(face_kind_, kind);
 }
 
@@ -165,6 +165,7 @@ FlowStep TwoPhaseOperator::step(double begin, double end, const Vector& before) 
   FlowStep step;
   step.length = (end - begin) * seconds_per_unit_;
   step.before = fv::View<double* [components]>("thixis::models::masses_before", grid_.owned_cells);
+  step.owed = fv::View<double* [components]>("thixis::models::owed", grid_.owned_cells);
   step.source = fv::View<double* [components]>("thixis::models::source", grid_.owned_cells);
   step.inflow = fv::View<double* [components]>("thixis::models::inflow", grid_.faces);
   step.outside = fv::View<PhaseState*>("thixis::models::outside", grid_.faces);
@@ -198,17 +199,23 @@ FlowStep TwoPhaseOperator::step(double begin, double end, const Vector& before) 
   Kokkos::deep_copy(step.inflow, inflow);
   Kokkos::deep_copy(step.outside, outside);
 
+  step.states_before = states(before);
   Kokkos::parallel_for("thixis::models::masses_before", Kokkos::RangePolicy<>(0, grid_.owned_cells),
-                       MassesOf{laws_, states(before), step.before});
+                       MassesOf{laws_, step.states_before, step.before});
   return step;
 }
 
-fv::View<PhaseState*> TwoPhaseOperator::states(const Vector& X) const {
+Vector TwoPhaseOperator::with_ghosts(const Vector& X) const {
   Vector all(column_map_);
   all.doImport(X, *import_, Tpetra::INSERT);
+  return all;
+}
+
+fv::View<PhaseState*> TwoPhaseOperator::states(const Vector& X) const {
+  const Vector all = with_ghosts(X);
   const fv::View<PhaseState*> states("thixis::models::states", grid_.cells);
   Kokkos::parallel_for("thixis::models::states", Kokkos::RangePolicy<>(0, grid_.cells),
-                       StatesOf{laws_, std::as_const(all).getLocalViewDevice(Tpetra::Access::ReadOnly), states});
+                       StatesOf{laws_, all.getLocalViewDevice(Tpetra::Access::ReadOnly), states});
   return states;
 }
 

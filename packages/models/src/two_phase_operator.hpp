@@ -8,7 +8,9 @@ namespace thixis::models {
 /// A step of backward Euler as kernels see it, in SI units.
 struct FlowStep {
   double length = 0;                      ///< s
-  fv::View<double* [components]> before;  ///< masses of the owned cells at its beginning, as in Masses
+  fv::View<PhaseState*> states_before;    ///< of all local cells at its beginning
+  fv::View<double* [components]> before;  ///< masses of the owned cells there, as in Masses
+  fv::View<double* [components]> owed;    ///< by how much these masses exceed what has come into the cell so far [kg/m^3]
   fv::View<double* [components]> source;  ///< of the owned cells [kg/(m^3 s)]
   fv::View<double* [components]> inflow;  ///< of the faces of kind flux, into the domain [kg/(m^2 s)]
   fv::View<PhaseState*> outside;          ///< of the faces of kind state
@@ -33,10 +35,12 @@ class TwoPhaseOperator {
   /// The step of ]begin, end] (units of the deck) from X^{n-1}: rates at its midpoint, states on the boundary at its end. Collective.
   FlowStep step(double begin, double end, const algebra::Vector& before) const;
 
+  /// X on column_map(). Collective.
+  algebra::Vector with_ghosts(const algebra::Vector& X) const;
   /// Of all local cells, ghosts included. Collective.
   fv::View<PhaseState*> states(const algebra::Vector& X) const;
   /// Of all local faces: what they leave out of balance in a cell [kg/s] is
-  /// R_c = |K| (l_c - before)/length + sum_F ± |F| Phi_c - |K| source, ± outward.
+  /// R_c = |K| (l_c - before + owed)/length + sum_F ± |F| Phi_c - |K| source, ± outward.
   fv::View<FaceFlux*> fluxes(const fv::View<PhaseState*>& states, const FlowStep& step) const;
 
  private:

@@ -41,22 +41,20 @@ LocalIndex first_cell(const fv::Grid& grid, Key key) {
 
 }  // namespace
 
-TwoPhaseProbes::TwoPhaseProbes(const fv::Grid& grid, const std::vector<double>& points) : comm_(grid.comm) {
+TwoPhaseProbes::TwoPhaseProbes(const fv::Grid& grid, const std::vector<Probe>& points) : comm_(grid.comm) {
   const auto at = fv::on_host(grid);
   if (points.empty()) {
     cell_.push_back(first_cell(grid, [&](LocalIndex K) { return std::pair(at.centre(K, 0), at.centre(K, 1)); }));
     return;
   }
-  if (points.size() % grid.dimension != 0)
-    throw core::InputError("output/probes: each point has two coordinates; write {x1,y1,x2,y2,...}.");
-  for (std::size_t i = 0; i < points.size(); i += grid.dimension) {
-    const double x = points[i], y = grid.dimension == 1 ? 0 : points[i + 1];
-    cell_.push_back(first_cell(grid, [&](LocalIndex K) {
+  for (const auto& [path, at_point] : points) {
+    const auto [x, y] = at_point;
+    cell_.push_back(first_cell(grid, [&, x = x, y = y](LocalIndex K) {
       const double none = std::numeric_limits<double>::infinity();
       return holds(grid, at, K, x, y) ? std::pair(static_cast<double>(grid.cell_id[K]), 0.0) : std::pair(none, none);
     }));
     if (!comm_.any(cell_.back() >= 0))
-      throw core::InputError(fmt::format("output/probes: the point ({}{}) lies outside of the mesh; take one inside.", core::to_text(x),
+      throw core::InputError(fmt::format("{}: the point ({}{}) lies outside of the mesh; take one inside.", path, core::to_text(x),
                                          grid.dimension == 1 ? "" : ", " + core::to_text(y)));
   }
 }

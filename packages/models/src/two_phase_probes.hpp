@@ -4,6 +4,7 @@
 
 #include "thixis/algebra/tpetra.hpp"
 #include "thixis/fv/grid.hpp"
+#include "thixis/models/model.hpp"
 #include "two_phase_laws.hpp"
 
 namespace thixis::models {
@@ -11,9 +12,9 @@ namespace thixis::models {
 /// The cells in which a run is looked at.
 class TwoPhaseProbes {
  public:
-  /// `points`: x and y of each point (intervals: x); empty: the cell whose centre is the leftmost one, the lowest of those. Throws
-  /// InputError for a point outside of the mesh. Collective.
-  TwoPhaseProbes(const fv::Grid& grid, const std::vector<double>& points);
+  /// `points` empty: the cell whose centre is the leftmost one, the lowest of those. Throws InputError for a point outside of the mesh.
+  /// Collective.
+  TwoPhaseProbes(const fv::Grid& grid, const std::vector<Probe>& points);
 
   int count() const { return static_cast<int>(cell_.size()); }
   /// The unknowns there, on all ranks. Collective.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "thixis/core/timer.hpp"
+#include "two_phase_turnover.hpp"
 
 namespace thixis::models {
 namespace {
@@ -16,9 +17,11 @@ using In = decltype(std::declval<const Vector&>().getLocalViewDevice(Tpetra::Acc
 using Out = decltype(std::declval<Vector&>().getLocalViewDevice(Tpetra::Access::ReadWrite));
 
 constexpr int contact_row = 0, first_equation = 1;
-constexpr double some_gas = 1e-8;   // s_g of cells that can give and take water
-constexpr double rounding = 1e-15;  // mean row that needs no correction
-constexpr double singular = 1e-10;  // share of the determinant that cancellation must leave
+constexpr double some_gas = 1e-8;        // s_g of cells that can give and take water
+constexpr double rounding = 1e-15;       // mean row that needs no correction
+constexpr double singular = 1e-10;       // share of the determinant that cancellation must leave
+constexpr double largest_weight = 1e60;  // nothing overflows
+constexpr double resolved = 1e10;        // units in the last place that a step must move for its tolerance to be relative to them
 
 In read(const Vector& v) { return v.getLocalViewDevice(Tpetra::Access::ReadOnly); }
 Out write(Vector& v) { return v.getLocalViewDevice(Tpetra::Access::ReadWrite); }
@@ -47,7 +50,7 @@ struct Equations {
   TwoPhaseLaws laws;
   fv::View<PhaseState*> states;
   fv::View<FaceFlux*> fluxes;
-  fv::View<double*[components]> before, source;
+  fv::View<double*[components]> before, owed, source;
   Out R;  ///< out, overwritten
 
   KOKKOS_FUNCTION void operator()(LocalIndex K) const {
@@ -60,7 +63,7 @@ struct Equations {
     R(unknowns_per_cell * K + contact_row, 0) = 0;
     for (int c = 0; c < components; ++c)
       R(unknowns_per_cell * K + first_equation + c, 0) =
-          (l.value[c] - before(K, c) + around.length * (out[c] / around.volume(K) - source(K, c))) / around.mass[c];
+          (l.value[c] - before(K, c) + owed(K, c) + around.length * (out[c] / around.volume(K) - source(K, c))) / around.mass[c];
   }
 };
 
@@ -166,22 +169,63 @@ TwoPhaseProblem::TwoPhaseProblem(const TwoPhaseOperator& flow, const FlowScales&
   open_ = !flow.grid().comm.all(faces == 0);
 }
 
+FlowScales TwoPhaseProblem::row_scales() const {
+  FlowScales scales = scales_;
+  for (int c = 0; c < components; ++c) scales.mass[c] /= weight_[c];
+  return scales;
+}
+
+/// w_c = |l^{n-1}|/moved_c where that is more than 1; of water, of which there is plenty, no more than of hydrogen.
+void TwoPhaseProblem::set_weights(double in_place) {
+  const Turnover of = turnover(flow_, step_);
+  double moved[components], rounding[components];
+  for (int c = 0; c < components; ++c) {
+    moved[c] = of.moved[c] / scales_.mass[c];
+    rounding[c] = of.rounding[c] / scales_.mass[c];
+  }
+  moved[water] = std::max(moved[water], moved[hydrogen]);
+  for (int c = 0; c < components; ++c) {
+    const double counts = std::max(moved[c], resolved * rounding[c]);
+    weight_[c] = counts > 0 ? std::clamp(in_place / counts, 1.0, largest_weight) : 1;
+  }
+  round_off_ = weight_[water] * rounding[water];
+}
+
 void TwoPhaseProblem::begin(FlowStep step) {
   step_ = std::move(step);
   at_ = {};
+  reference_norm_ = brought_norm(step_.length);
+  set_weights(brought_norm(0));
+}
+
+/// |F| of a step of this length.
+double TwoPhaseProblem::brought_norm(double length) const {
   double sum = 0;
   Kokkos::parallel_reduce("thixis::models::reference", Cells(0, flow_.grid().owned_cells),
-                          Reference{Around(flow_.grid(), step_.length, scales_), flow_.laws().porosity * flow_.laws().rho_w, step_.before,
+                          Reference{Around(flow_.grid(), length, scales_), flow_.laws().porosity * flow_.laws().rho_w, step_.before,
                                     step_.source, step_.inflow},
                           sum);
-  reference_norm_ = std::sqrt(flow_.grid().comm.sum(sum));
+  return std::sqrt(flow_.grid().comm.sum(sum));
 }
 
 void TwoPhaseProblem::equations(const Vector& X, Vector& R) const {
   const auto states = flow_.states(X);
   Kokkos::parallel_for("thixis::models::equations", Cells(0, flow_.grid().owned_cells),
-                       Equations{Around(flow_.grid(), step_.length, scales_), flow_.laws(), states, flow_.fluxes(states, step_),
-                                 step_.before, step_.source, write(R)});
+                       Equations{Around(flow_.grid(), step_.length, row_scales()), flow_.laws(), states, flow_.fluxes(states, step_),
+                                 step_.before, step_.owed, step_.source, write(R)});
+}
+
+fv::View<double* [components]> TwoPhaseProblem::left(const Vector& X) const {
+  Vector R(flow_.map());
+  equations(X, R);
+  const auto r = read(R);
+  const FlowScales scales = row_scales();
+  const fv::View<double* [components]> left("thixis::models::left", flow_.grid().owned_cells);
+  Kokkos::parallel_for(
+      "thixis::models::left", Cells(0, flow_.grid().owned_cells), KOKKOS_LAMBDA(LocalIndex K) {
+        for (int c = 0; c < components; ++c) left(K, c) = scales.mass[c] * r(unknowns_per_cell * K + first_equation + c, 0);
+      });
+  return left;
 }
 
 void TwoPhaseProblem::arguments(const Vector& X, Vector& K, Vector& G) const {
@@ -265,7 +309,7 @@ void TwoPhaseProblem::linearize(const Vector& X, const Vector& a, const Vector& 
   at_.fluxes = flow_.fluxes(at_.states, step_);
   const double* unknown = scales_.unknown;
   Kokkos::parallel_for("thixis::models::jacobian", Cells(0, flow_.grid().owned_cells),
-                       Fill{Around(flow_.grid(), step_.length, scales_),
+                       Fill{Around(flow_.grid(), step_.length, row_scales()),
                             flow_.laws(),
                             {unknown[0], unknown[1], unknown[2]},
                             at_.states,

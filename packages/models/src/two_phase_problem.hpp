@@ -16,8 +16,11 @@ struct FlowScales {
 
 /// A step of two-phase flow as the nonlinear solver sees it (docs/methods/two_phase.md, 4): X = (s_g, P, chi) interlaced by cell,
 ///
-///     R_c = [ |K| (l_c - l_c^{n-1})/tau + sum_F ± |F| Phi_c - |K| Q_c ] tau/(|K| mass_c),   c = w, h,
-///     K = s_g,   G = H P_g - beta_l chi  [kg/m^3].
+///     R_c = w_c [ |K| (l_c - l_c^{n-1} + owed_c)/tau + sum_F ± |F| Phi_c - |K| Q_c ] tau/(|K| mass_c),   c = w, h,
+///     K = s_g,   G = H P_g - beta_l chi  [kg/m^3],
+///
+/// owed_c what the step before has left of its own equations. The weights w_c >= 1 make a tolerance relative to what is in place one
+/// relative to what the step moves (4), down to rounding.
 ///
 /// Rows of a cell: contact, water, hydrogen. So the diagonal holds the derivatives by s_g, P, chi that dominate them, and incomplete
 /// factors of level 0 are exact in one dimension. `solve` closes the linearized balances of both components to rounding, whatever the
@@ -39,6 +42,11 @@ class TwoPhaseProblem final : public complementarity::Problem {
   void begin(FlowStep step);
   const FlowStep& step() const { return step_; }
   const FlowScales& scales() const { return scales_; }
+  double weight(int component) const { return weight_[component]; }
+  /// A unit in the last place of the pressures, in the equations of water: rounding lets |R| fall no further.
+  double round_off() const { return round_off_; }
+  /// What X leaves of the balances of the owned cells, owed included [kg/m^3].
+  fv::View<double* [components]> left(const algebra::Vector& X) const;
   const Linearization& linearization() const { return at_; }
 
   algebra::MapPtr map() const override { return flow_.map(); }
@@ -60,6 +68,9 @@ class TwoPhaseProblem final : public complementarity::Problem {
   const algebra::Matrix& matrix() const { return *A_; }
 
  private:
+  double brought_norm(double length) const;
+  void set_weights(double in_place);
+  FlowScales row_scales() const;
   void set_pattern();
   void scale(algebra::Vector& X, bool up) const;
   Teuchos::RCP<algebra::Vector> balancing_mode(int component) const;
@@ -71,7 +82,7 @@ class TwoPhaseProblem final : public complementarity::Problem {
   double volume_ = 0;  ///< of all cells, on all ranks
   bool open_;          ///< part of the boundary is of kind state
   FlowStep step_;
-  double reference_norm_ = 0;
+  double reference_norm_ = 0, round_off_ = 0, weight_[components] = {1, 1};
   Linearization at_;
 
   fv::View<LocalIndex*> row_begin_;  ///< where the rows of a cell begin in the matrix

@@ -1,10 +1,9 @@
 #include "thixis/output/checkpoint.hpp"
 
 #include <fmt/core.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <filesystem>
+#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -12,13 +11,17 @@
 #include "hash.hpp"
 #include "hdf5_file.hpp"
 #include "hdf5_reader.hpp"
+#include "seal.hpp"
 #include "thixis/core/error.hpp"
+#include "thixis/core/file.hpp"
+#include "thixis/core/text.hpp"
 
 namespace thixis::output {
 namespace {
 
-const std::string format_text = "thixis checkpoint";
-constexpr GlobalIndex format_version = 1;
+const Seal our_seal{"thixis checkpoint", 2};
+
+constexpr GlobalIndex most_levels = 100000;  ///< of a hierarchy of meshes
 
 [[noreturn]] void wrong(const std::string& sentence) { throw core::Error(core::ExitCode::internal, sentence); }
 
@@ -103,9 +106,7 @@ long long room_of(const Checkpoint& checkpoint, const core::Comm& comm) {
 }
 
 void write_content(const std::string& path, const Checkpoint& checkpoint, const core::Comm& comm) {
-  Hdf5File file(path, Hdf5File::Mode::create, room_of(checkpoint, comm), comm);
-  file.add_text("/format", format_text);
-  file.add_attribute("/", "version", format_version);
+  Hdf5File file(path, Hdf5File::Mode::create, room_of(checkpoint, comm), comm, seal_bytes);
   file.add_attribute("/", "level", static_cast<GlobalIndex>(checkpoint.level));
   file.add_text("/deck", checkpoint.deck);
   file.add_text("/folder", checkpoint.folder);
@@ -130,8 +131,7 @@ void prove(const std::string& path, const Checkpoint& checkpoint, const core::Co
       "The checkpoint can not be written: '{}' does not read back as it was written; an older checkpoint stays as it is.", path);
   const auto file = comm.together([&] { return std::make_shared<Hdf5Reader>(path, complaint); });
   comm.together([&] {
-    bool same = file->text("/format") == format_text && file->integer("/", "version") == format_version &&
-                file->integer("/", "level") == checkpoint.level && file->text("/deck") == checkpoint.deck &&
+    bool same = file->integer("/", "level") == checkpoint.level && file->text("/deck") == checkpoint.deck &&
                 file->text("/folder") == checkpoint.folder && file->entries("/blocks").size() == checkpoint.blocks.size() &&
                 file->attributes("/attributes").size() == checkpoint.attributes.size();
     for (const auto& [name, value] : checkpoint.attributes) same = same && bits(file->number("/attributes", name)) == bits(value);
@@ -148,6 +148,7 @@ void prove(const std::string& path, const Checkpoint& checkpoint, const core::Co
 void write_checkpoint(const std::string& path, const Checkpoint& checkpoint, const core::Comm& comm) {
   write_aside(path, comm, [&](const std::string& temporary) {
     write_content(temporary, checkpoint, comm);
+    comm.on_root([&] { write_seal(temporary, our_seal); });
     prove(temporary, checkpoint, comm);
   });
 }
@@ -159,39 +160,44 @@ struct StoredCheckpoint::File : Hdf5Reader {
 namespace {
 
 std::string damaged(const std::string& path) {
-  return fmt::format("The checkpoint '{}' is damaged; go on from another one, or begin anew with 'thixis run'.", path);
+  return fmt::format("The checkpoint '{}' is damaged; go on from another one, or begin anew with 'thixis run'.", core::one_line(path));
 }
 
-void check_kind(const std::string& path) {
-  std::error_code unknown;
-  if (!std::filesystem::exists(path, unknown))
-    throw core::FileError(fmt::format("There is no checkpoint '{}'; give the checkpoint.h5 in the output directory of a run.", path));
-  if (std::filesystem::is_directory(path, unknown))
-    throw core::FileError(fmt::format("'{}' is a folder; give the checkpoint.h5 in it.", path));
-  if (::access(path.c_str(), R_OK) != 0) throw core::FileError(fmt::format("'{}' can not be read; check its permissions.", path));
-  if (!Hdf5Reader::recognizes(path))
-    throw core::FileError(fmt::format("'{}' is no checkpoint of Thixis; give the checkpoint.h5 in the output directory of a run.", path));
-}
-
-void check_version(const Hdf5Reader& file, const std::string& path) {
-  if (!file.has("format") || file.text("/format") != format_text)
-    throw core::FileError(fmt::format("'{}' is no checkpoint of Thixis; give the checkpoint.h5 in the output directory of a run.", path));
-  const GlobalIndex version = file.integer("/", "version");
-  if (version != format_version)
-    throw core::FileError(fmt::format("The checkpoint '{}' has version {}, this program reads version {}; use the Thixis that wrote it.",
-                                      path, version, format_version));
+/// Throws FileError unless this is a checkpoint of this program, with every byte that was written.
+void check_seal(const std::string& path) {
+  using State = core::RegularFile::State;
+  const auto refuse = [](const std::string& sentence) { throw core::FileError(sentence); };
+  const std::string shown = core::one_line(path);
+  core::RegularFile file(path);
+  if (file.state() == State::absent)
+    refuse(fmt::format("There is no checkpoint '{}'; give the checkpoint.h5 in the output directory of a run.", shown));
+  if (file.state() == State::folder) refuse(fmt::format("'{}' is a folder; give the checkpoint.h5 in it.", shown));
+  if (file.state() == State::special)
+    refuse(fmt::format("'{}' is no regular file, but a pipe or a device; give the checkpoint.h5 in the output directory of a run.", shown));
+  if (file.state() == State::unreadable) refuse(fmt::format("'{}' can not be read; check its permissions.", shown));
+  const SealFound found = look_at_seal(file, our_seal);
+  if (found.state == SealState::none)
+    refuse(
+        fmt::format("'{}' is no checkpoint of Thixis, or one of an older version, without a seal; give the checkpoint.h5 in the output "
+                    "directory of a run, or use the Thixis that wrote it.",
+                    shown));
+  if (found.state == SealState::other_format)
+    refuse(fmt::format("The checkpoint '{}' has format {}, this program reads format {}; use the Thixis that wrote it.", shown,
+                       found.format, our_seal.format));
+  if (found.state == SealState::damaged) refuse(damaged(path));
 }
 
 }  // namespace
 
 StoredCheckpoint::StoredCheckpoint(std::string path, const core::Comm& comm) : path_(std::move(path)), comm_(comm) {
+  comm_.on_root([&] { check_seal(path_); });
   comm_.together([&] {
-    check_kind(path_);
     file_ = std::make_unique<File>(path_, damaged(path_));
-    check_version(*file_, path_);
     head_.deck = file_->text("/deck");
     head_.folder = file_->text("/folder");
-    head_.level = static_cast<int>(file_->integer("/", "level"));
+    const GlobalIndex level = file_->integer("/", "level");
+    if (level < -1 || level > most_levels) throw wrong_number("level", static_cast<double>(level));
+    head_.level = static_cast<int>(level);
     for (const auto& name : file_->attributes("/attributes")) head_.attributes[name] = file_->number("/attributes", name);
     for (const auto& name : file_->entries("/blocks")) head_.blocks.push_back({name, {}, {}});
   });
@@ -206,6 +212,22 @@ double StoredCheckpoint::attribute(const std::string& name) const {
   const auto found = head_.attributes.find(name);
   if (found == head_.attributes.end()) throw core::FileError(fmt::format("The checkpoint '{}' does not hold '{}'.", path_, name));
   return found->second;
+}
+
+core::FileError StoredCheckpoint::wrong_number(const std::string& name, double value) const {
+  return core::FileError(fmt::format("{} No run has {} as its '{}'.", damaged(path_), value, name));
+}
+
+double StoredCheckpoint::number(const std::string& name, double least) const {
+  const double value = attribute(name);
+  if (!(std::isfinite(value) && value >= least)) throw wrong_number(name, value);
+  return value;
+}
+
+GlobalIndex StoredCheckpoint::count(const std::string& name, GlobalIndex most) const {
+  const double value = number(name, 0);
+  if (value > static_cast<double>(most) || value != std::floor(value)) throw wrong_number(name, value);
+  return static_cast<GlobalIndex>(value);
 }
 
 GlobalIndex StoredCheckpoint::size(const std::string& block) const {
@@ -258,10 +280,24 @@ std::vector<double> StoredCheckpoint::fetch(const std::string& block, const std:
   return exchange.backward(answers.data());
 }
 
+std::vector<double> StoredCheckpoint::fetch_finite(const std::string& block, const std::vector<GlobalIndex>& ids) const {
+  std::vector<double> values = fetch(block, ids);
+  comm_.together([&] {
+    const auto wrong_one = std::find_if(values.begin(), values.end(), [](double value) { return !std::isfinite(value); });
+    if (wrong_one != values.end()) throw wrong_number(block, *wrong_one);
+  });
+  return values;
+}
+
 std::vector<GlobalIndex> StoredCheckpoint::fetch_list(const std::string& block) const {
-  std::vector<GlobalIndex> ids(std::max<GlobalIndex>(0, size(block)));
+  constexpr double exact = 1ll << 53;
+  std::vector<GlobalIndex> ids(std::max<GlobalIndex>(0, comm_.together([&] { return size(block); })));
   std::iota(ids.begin(), ids.end(), 0);
   const std::vector<double> values = fetch(block, ids);
+  comm_.together([&] {
+    for (const double value : values)
+      if (!(std::abs(value) <= exact && value == std::floor(value))) throw wrong_number(block, value);
+  });
   return {values.begin(), values.end()};
 }
 

@@ -7,8 +7,10 @@
 #include <cstring>
 #include <filesystem>
 
+#include "lock.hpp"
 #include "text_file.hpp"
 #include "thixis/core/error.hpp"
+#include "thixis/core/file.hpp"
 
 namespace thixis::output {
 namespace {
@@ -42,10 +44,22 @@ void make(const std::string& path) {
   if (::access(path.c_str(), W_OK | X_OK) != 0) refuse(path, std::strerror(errno));
 }
 
+/// What a run writes, or keeps beside it for a moment.
+void require_plain_places(const fs::path& folder) {
+  for (const char* name : {"deck.xml", "log.txt", "history.csv", "summary.json", "series.csv", "checkpoint.h5", "fields.h5", "fields.xdmf"})
+    for (const char* ending : {"", ".part"}) core::require_plain_place((folder / (std::string(name) + ending)).string());
+  std::error_code unknown;
+  if (fs::is_symlink(folder / "fields", unknown)) core::require_plain_place((folder / "fields").string());
+}
+
 }  // namespace
 
-void RunDirectory::create(const core::Comm& comm) const {
-  comm.on_root([&] { make(path_); });
+void RunDirectory::create(const core::Comm& comm) {
+  comm.on_root([&] {
+    make(path_);
+    if (!lock_) lock_ = std::make_shared<FolderLock>(path_);
+    require_plain_places(path_);
+  });
 }
 
 void RunDirectory::write_deck(const std::string& xml, const core::Comm& comm) const {

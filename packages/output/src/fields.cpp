@@ -11,6 +11,7 @@
 #include "grid.hpp"
 #include "hdf5_file.hpp"
 #include "links.hpp"
+#include "seal.hpp"
 #include "slabs.hpp"
 #include "text_file.hpp"
 #include "thixis/core/error.hpp"
@@ -128,11 +129,12 @@ struct FieldWriter::Impl {
     const long long room = room_of(next, new_mesh);
     if (series) {
       write_aside(frames.path(grids), comm, [&](const std::string& path) {
-        Hdf5File file(path, Hdf5File::Mode::create, room + array_bytes + static_cast<long long>(element.size()), comm);
+        Hdf5File file(path, Hdf5File::Mode::create, room + array_bytes + static_cast<long long>(element.size()), comm, seal_bytes);
         add_to(file);
         file.add_text("/xdmf", element);
         file.sync();
         file.close();
+        comm.on_root([&] { write_seal(path, Frames::seal()); });
       });
     } else {
       Hdf5File file(data_path, Hdf5File::Mode::extend, room, comm);

@@ -45,6 +45,11 @@ std::string Frames::path(int frame) const { return (fs::path(folder_) / name(fra
 void Frames::make_folder() const {
   const fs::path place = fs::path(folder_) / frames_folder;
   std::error_code error;
+  if (fs::is_symlink(place, error))
+    throw core::FileError(
+        fmt::format("The fields can not be written: '{}' is a link, and nothing is written through links; remove it, or "
+                    "name another folder by output/directory in the deck or by --output.",
+                    place.string()));
   fs::create_directories(place, error);
   if (error) throw core::FileError(fmt::format("The folder '{}' can not be made: {}.", place.string(), error.message()));
 }
@@ -73,6 +78,8 @@ StoredFrame Frames::read(int frame, int mesh_before) const {
   const std::string place = path(frame), damaged = can_not_go_on(place, "damaged");
   std::error_code unknown;
   if (!fs::exists(place, unknown)) throw core::FileError(can_not_go_on(place, "missing"));
+  core::RegularFile sealed(place);
+  if (!sealed.open() || look_at_seal(sealed, seal()).state != SealState::whole) throw core::FileError(damaged);
   const Hdf5Reader file(place, damaged);
   const std::string fields = fmt::format("/fields_{}", frame), mesh = fmt::format("/mesh_{}", frame);
   StoredFrame stored;

@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <string>
 
+#include "seal.hpp"
 #include "thixis/core/types.hpp"
 
 namespace thixis::output {
@@ -20,6 +21,7 @@ struct StoredFrame {
 ///     /fields_<n>  the fields, and the attributes `time` (double) and `mesh` (integer), the number of the frame that holds the mesh
 ///     /xdmf        text, its `<Grid>` element of fields.xdmf
 ///
+/// behind a seal: a run that goes on shows a damaged frame to no library.
 /// Nothing here is collective.
 class Frames {
  public:
@@ -28,6 +30,8 @@ class Frames {
   /// The file of a frame as the files beside the folder of frames call it, and its path.
   static std::string name(int frame);
   std::string path(int frame) const;
+
+  static Seal seal() { return {"thixis frame", 1}; }
 
   /// Makes the folder of frames. Throws FileError.
   void make_folder() const;

@@ -11,6 +11,7 @@
 
 #include "hdf5_handle.hpp"
 #include "thixis/core/error.hpp"
+#include "thixis/core/file.hpp"
 
 #ifndef H5_HAVE_PARALLEL
 #error "Thixis needs the parallel HDF5."
@@ -25,7 +26,8 @@ static_assert(sizeof(hid_t) <= sizeof(long long));
 /// says; MPI-IO would only say that it failed.
 void make_room(const std::string& path, Hdf5File::Mode mode, long long room) {
   const bool create = mode == Hdf5File::Mode::create;
-  const int file = ::open(path.c_str(), create ? O_CREAT | O_TRUNC | O_RDWR : O_RDWR, 0666);
+  core::require_plain_place(path);
+  const int file = ::open(path.c_str(), (create ? O_CREAT | O_TRUNC | O_RDWR : O_RDWR) | O_NOFOLLOW | O_CLOEXEC, 0666);
   if (file < 0)
     throw core::FileError(fmt::format("The file '{}' can not be {}: {}.", path, create ? "created" : "opened", std::strerror(errno)));
   const off_t size = ::lseek(file, 0, SEEK_END);
@@ -48,7 +50,8 @@ void check_entry_name(const std::string& what, const std::string& name) {
         fmt::format("A {} can not be called '{}': its name must be made of letters, digits, '_', '-', '.' and inner spaces.", what, name));
 }
 
-Hdf5File::Hdf5File(const std::string& path, Mode mode, long long room, const core::Comm& comm) : path_(path), comm_(comm) {
+Hdf5File::Hdf5File(const std::string& path, Mode mode, long long room, const core::Comm& comm, std::size_t front)
+    : path_(path), comm_(comm) {
   comm.on_root([&] { make_room(path, mode, room); });
   const Quiet quiet;
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
@@ -58,7 +61,9 @@ Hdf5File::Hdf5File(const std::string& path, Mode mode, long long room, const cor
   // sieving) fills gaps with what it has read before, over what another rank has written meanwhile.
   H5Pset_coll_metadata_write(access, false);
   H5Pset_all_coll_metadata_ops(access, true);
-  file_ = mode == Mode::create ? H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access) : H5Fopen(path.c_str(), H5F_ACC_RDWR, access);
+  const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+  H5Pset_userblock(creation, front);
+  file_ = mode == Mode::create ? H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation, access) : H5Fopen(path.c_str(), H5F_ACC_RDWR, access);
   if (!comm.all(file_ >= 0)) {
     if (file_ >= 0) H5Fclose(file_);
     throw core::FileError(fmt::format("The file '{}' can not be opened by all ranks: its folder must be seen by all of them.", path));

@@ -18,7 +18,8 @@ class Hdf5File {
   enum class Mode { create, extend };
   /// `room`: bytes that will be added at most. They are reserved now: on a full disk the file stays as it is (HDF5 would leave it
   /// damaged, and crash at the end of the program because it can not be closed).
-  Hdf5File(const std::string& path, Mode mode, long long room, const core::Comm& comm);
+  /// `front`: bytes that are left free in front of a file that is created: 0, or a power of two from 512.
+  Hdf5File(const std::string& path, Mode mode, long long room, const core::Comm& comm, std::size_t front = 0);
   /// Closes without complaint.
   ~Hdf5File();
   Hdf5File(const Hdf5File&) = delete;

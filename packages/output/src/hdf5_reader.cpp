@@ -31,6 +31,9 @@ Hdf5Reader::Hdf5Reader(const std::string& path, std::string complaint) : complai
   H5Pset_file_locking(access, false, true);
   file_ = H5Fopen(path.c_str(), H5F_ACC_RDONLY, access);
   require(file_ >= 0);
+  hsize_t bytes = 0;
+  require(H5Fget_filesize(file_, &bytes) >= 0);
+  bytes_ = static_cast<GlobalIndex>(bytes);
 }
 
 Hdf5Reader::~Hdf5Reader() {
@@ -38,13 +41,27 @@ Hdf5Reader::~Hdf5Reader() {
   if (file_ >= 0) H5Fclose(file_);
 }
 
-bool Hdf5Reader::recognizes(const std::string& path) {
-  const Quiet quiet;
-  return H5Fis_hdf5(path.c_str()) > 0;
-}
-
 void Hdf5Reader::require(bool good) const {
   if (!good) throw core::FileError(complaint_);
+}
+
+/// Every step of the way to an entry is an entry itself.
+void Hdf5Reader::require_own(const std::string& name) const {
+  for (std::size_t end = name.find('/', 1);; end = name.find('/', end + 1)) {
+    const std::string part = name.substr(0, end);
+    H5L_info_t info{};
+    require(part == "/" || (H5Lget_info(file_, part.c_str(), &info, H5P_DEFAULT) >= 0 && info.type == H5L_TYPE_HARD));
+    if (end == std::string::npos) return;
+  }
+}
+
+/// What the values of an array take in memory: they stand in this file, one after the other.
+GlobalIndex Hdf5Reader::bytes_of(Id array) const {
+  const Handle creation(H5Dget_create_plist(array), H5Pclose), type(H5Dget_type(array), H5Tclose), space(H5Dget_space(array), H5Sclose);
+  require(H5Pget_layout(creation) == H5D_CONTIGUOUS && H5Pget_external_count(creation) == 0);
+  const auto points = static_cast<GlobalIndex>(H5Sget_simple_extent_npoints(space)), size = static_cast<GlobalIndex>(H5Tget_size(type));
+  require(points >= 0 && size > 0 && points <= bytes_ / size);
+  return points * size;
 }
 
 bool Hdf5Reader::has(const std::string& name) const {
@@ -54,17 +71,19 @@ bool Hdf5Reader::has(const std::string& name) const {
 
 std::string Hdf5Reader::text(const std::string& name) const {
   const Quiet quiet;
+  require_own(name);
   const Handle array(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);
   require(array.valid());
   const Handle type(H5Dget_type(array), H5Tclose), space(H5Dget_space(array), H5Sclose);
   require(H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) == 0 && H5Sget_simple_extent_npoints(space) == 1);
-  std::string text(H5Tget_size(type), '\0');
+  std::string text(bytes_of(array), '\0');
   require(H5Dread(array, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()) >= 0);
   return text.substr(0, text.find('\0'));
 }
 
 void Hdf5Reader::read_attribute(const std::string& group, const std::string& name, Id type, void* value) const {
   const Quiet quiet;
+  require_own(group);
   const Handle attribute(H5Aopen_by_name(file_, group.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
   require(attribute.valid());
   const Handle stored(H5Aget_type(attribute), H5Tclose), space(H5Aget_space(attribute), H5Sclose);
@@ -84,6 +103,7 @@ GlobalIndex Hdf5Reader::integer(const std::string& group, const std::string& nam
 
 std::vector<std::string> Hdf5Reader::attributes(const std::string& group) const {
   const Quiet quiet;
+  require_own(group);
   const Handle place(H5Gopen2(file_, group.c_str(), H5P_DEFAULT), H5Gclose);
   require(place.valid());
   return names([&](hsize_t k, char* name, std::size_t size) {
@@ -93,6 +113,7 @@ std::vector<std::string> Hdf5Reader::attributes(const std::string& group) const 
 
 std::vector<std::string> Hdf5Reader::entries(const std::string& group) const {
   const Quiet quiet;
+  require_own(group);
   const Handle place(H5Gopen2(file_, group.c_str(), H5P_DEFAULT), H5Gclose);
   require(place.valid());
   return names([&](hsize_t k, char* name, std::size_t size) {
@@ -102,6 +123,7 @@ std::vector<std::string> Hdf5Reader::entries(const std::string& group) const {
 
 GlobalIndex Hdf5Reader::rows(const std::string& array) const {
   const Quiet quiet;
+  require_own(array);
   const Handle place(H5Dopen2(file_, array.c_str(), H5P_DEFAULT), H5Dclose);
   require(place.valid());
   const Handle space(H5Dget_space(place), H5Sclose);
@@ -112,16 +134,19 @@ GlobalIndex Hdf5Reader::rows(const std::string& array) const {
 
 GlobalIndex Hdf5Reader::length(const std::string& vector) const {
   const Quiet quiet;
+  require_own(vector);
   const Handle array(H5Dopen2(file_, vector.c_str(), H5P_DEFAULT), H5Dclose);
   require(array.valid());
   const Handle space(H5Dget_space(array), H5Sclose);
   require(H5Sget_simple_extent_ndims(space) == 1);
+  bytes_of(array);
   return H5Sget_simple_extent_npoints(space);
 }
 
 void Hdf5Reader::read_rows(const std::string& vector, const Slab& slab, Id type, void* rows) const {
   if (slab.size == 0) return;
   const Quiet quiet;
+  require_own(vector);
   const Handle array(H5Dopen2(file_, vector.c_str(), H5P_DEFAULT), H5Dclose);
   require(array.valid());
   const Handle stored(H5Dget_type(array), H5Tclose), space(H5Dget_space(array), H5Sclose);

@@ -7,7 +7,8 @@
 namespace thixis::output {
 
 /// An HDF5 file opened for reading by this rank alone. Nothing is collective. What is not there or is something else than asked for throws
-/// a FileError with the sentence of the constructor; HDF5 itself prints nothing, and files are not locked.
+/// a FileError with the sentence of the constructor; so does what this program never writes: a link in place of an entry, an array whose
+/// values stand in another file, one that says it is larger than the file. HDF5 itself prints nothing, and files are not locked.
 class Hdf5Reader {
  public:
   /// `complaint`: the sentence about a file that does not hold what it should. An existing file that is no HDF5 is one, too.
@@ -15,9 +16,6 @@ class Hdf5Reader {
   ~Hdf5Reader();
   Hdf5Reader(const Hdf5Reader&) = delete;
   Hdf5Reader& operator=(const Hdf5Reader&) = delete;
-
-  /// Whether the file begins as HDF5 files do (a damaged one, too).
-  static bool recognizes(const std::string& path);
 
   bool has(const std::string& name) const;  ///< an entry of the outermost group
   std::string text(const std::string& name) const;
@@ -36,7 +34,11 @@ class Hdf5Reader {
   void read_attribute(const std::string& group, const std::string& name, Id type, void* value) const;
   void read_rows(const std::string& vector, const Slab& slab, Id type, void* rows) const;
 
+  void require_own(const std::string& name) const;
+  GlobalIndex bytes_of(Id array) const;
+
   std::string complaint_;
+  GlobalIndex bytes_ = 0;  ///< of the file
   Id file_ = -1;
 };
 

@@ -8,7 +8,7 @@ namespace thixis::output {
 namespace {
 
 const std::string header =
-    "level,time_step,time,newton,linear,active,changed,residual,eta_disc,eta_lin,eta_alg,eta_total,energy_error,seconds\n";
+    "level,time_step,time,newton,linear,active,changed,residual,eta_disc,eta_lin,eta_alg,eta_total,eta_time,promise,energy_error,seconds\n";
 
 template <class... T>
 std::string line(const std::optional<T>&... entries) {
@@ -36,7 +36,7 @@ History& History::operator=(History&&) noexcept = default;
 void History::append(const HistoryRow& row) {
   if (!table_) return;
   table_->append(line(row.level, row.time_step, row.time, row.newton, row.linear, row.active, row.changed, row.residual, row.eta_disc,
-                      row.eta_lin, row.eta_alg, row.eta_total, row.energy_error, row.seconds));
+                      row.eta_lin, row.eta_alg, row.eta_total, row.eta_time, row.promise, row.energy_error, row.seconds));
 }
 
 GlobalIndex History::rows() const { return table_ ? table_->rows() : 0; }

@@ -35,7 +35,10 @@ Json json(const std::optional<SummaryEstimate>& estimate) {
                         {"discretization", estimate->discretization},
                         {"linearization", estimate->linearization},
                         {"algebraic", estimate->algebraic}});
+  result["promise"] = estimate->promise;
+  if (!estimate->doubts.empty()) result["doubts"] = estimate->doubts;
   append(result, object(estimate->terms));
+  if (estimate->time) append(result, object({{"time", *estimate->time}}));
   return result;
 }
 

@@ -10,6 +10,7 @@
 
 #include "text_file.hpp"
 #include "thixis/core/error.hpp"
+#include "thixis/core/file.hpp"
 
 namespace thixis::output {
 namespace {
@@ -43,6 +44,7 @@ struct Table::File {
 Table::Table(const std::string& path, const std::string& header, GlobalIndex rows_kept, const core::Comm& comm)
     : path_(path), comm_(comm), file_(std::make_unique<File>()) {
   rows_ = comm.on_root([&] {
+    core::require_plain_place(path);
     const std::string kept = rows_kept > 0 ? beginning(path, header, rows_kept) : std::string();
     if (!kept.empty() && ::truncate(path.c_str(), static_cast<off_t>(kept.size())) != 0) throw core::FileError(not_written(path, errno));
     file_->stream.reset(std::fopen(path.c_str(), kept.empty() ? "w" : "a"));

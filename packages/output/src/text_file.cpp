@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "thixis/core/error.hpp"
+#include "thixis/core/file.hpp"
 
 namespace thixis::output {
 
@@ -16,6 +17,8 @@ std::string not_written(const std::string& path, int error_number) {
 
 void write_text(const std::string& path, const std::string& text) {
   const std::string temporary = path + ".part";
+  core::require_plain_place(path);
+  core::require_plain_place(temporary);
   std::FILE* file = std::fopen(temporary.c_str(), "w");
   if (file == nullptr) throw core::FileError(not_written(path, errno));
   int error = 0;

@@ -12,8 +12,9 @@ namespace {
 
 /// A function of the distance to a centre.
 template <class F>
-FieldPtr radial(const std::vector<double>& centre, F f) {
-  return formula([cx = centre[0], cy = centre[1], f](double x, double y) { return f(std::hypot(x - cx, y - cy)); });
+FieldPtr radial(const std::vector<double>& centre, F f, std::optional<Degree> degree = {}) {
+  return formula([cx = centre[0], cy = centre[1], f](double x, double y) { return f(std::hypot(x - cx, y - cy)); },
+                 "a function of the scene", degree);
 }
 
 /// Gradient of the radial function with f'(r) = r * slope(r): slope(r) (x - centre).
@@ -94,7 +95,7 @@ CatalogueEntry on_the_disk(const std::string& name, double g, U u2, S slope2, F 
   const double R = std::sqrt(0.5);
   const auto u1 = [g](double r) { return g * (2 * r * r - 1); };
   ExactMembranes exact;
-  exact.u[0] = radial(centre, u1);
+  exact.u[0] = radial(centre, u1, Degree{2});
   exact.u[1] = radial(centre, [=](double r) { return r < R ? u1(r) : u2(r); });
   exact.gradient[0] = radial_gradient(centre, [g](double) { return 4 * g; });
   exact.gradient[1] = radial_gradient(centre, [=](double r) { return r < R ? 4 * g : slope2(r); });
@@ -135,7 +136,7 @@ CatalogueEntry radial_obstacle() {
   exact.multiplier = radial(centre, [R](double r) { return r < R ? 4.0 : 0.0; });
   CatalogueEntry c = entry("radial obstacle", centre, R, exact);
   c.scene.force[0] = constant(0);
-  c.scene.obstacle = radial(centre, psi);
+  c.scene.obstacle = radial(centre, psi, Degree{2});
   return c;
 }
 

@@ -7,22 +7,23 @@
 namespace thixis::scene {
 namespace {
 
-constexpr double difference_step = 1e-6;  // round-off 2e-10 |u|; 1e-6 times a jump of second derivatives within 3e-6 of the interface
-
 /// Reads the expressions of one deck.
 struct Reader {
   const DataParams& data;
 
   FieldPtr operator()(const std::string& path, const core::Formula& formula) const {
     if (formula.empty()) return nullptr;
-    return expression("scene/" + path, formula.text, data.centre, data.constants);
+    return expression("scene/" + path, formula.text, data.centre, data.constants, data.degree);
+  }
+  /// The exact solution: what the deck says of the data is not said of it.
+  FieldPtr exact(const std::string& path, const core::Formula& formula) const {
+    return formula.empty() ? nullptr : expression("scene/" + path, formula.text, data.centre, data.constants);
   }
   FieldPtr operator()(const std::string& path, const core::Formula& formula, const FieldPtr& otherwise) const {
     return formula.empty() ? otherwise : (*this)(path, formula);
   }
-  std::array<FieldPtr, 2> gradient(const std::string& path, const core::Formula& in_x, const core::Formula& in_y, const FieldPtr& u) const {
-    if (in_x.empty()) return difference_gradient(u, difference_step);
-    return {(*this)(path + "_x", in_x), (*this)(path + "_y", in_y)};
+  std::array<FieldPtr, 2> gradient(const std::string& path, const core::Formula& in_x, const core::Formula& in_y) const {
+    return {exact(path + "_x", in_x), exact(path + "_y", in_y)};
   }
 };
 
@@ -33,8 +34,8 @@ void read_membrane(const Reader& read, const SceneParams& params, const Membrane
   scene.force[alpha] = read("data/f" + m.index, data.*m.f, constant(0));
   FieldPtr trace;
   if (scene.exact) {
-    trace = scene.exact->u[alpha] = read("data/u" + m.index, data.*m.u);
-    scene.exact->gradient[alpha] = read.gradient("data/u" + m.index, data.*m.u_x, data.*m.u_y, trace);
+    trace = scene.exact->u[alpha] = read.exact("data/u" + m.index, data.*m.u);
+    scene.exact->gradient[alpha] = read.gradient("data/u" + m.index, data.*m.u_x, data.*m.u_y);
   }
   const FieldPtr rest = scene.default_boundary.value[alpha] = read("data/g" + m.index, data.*m.g, trace);
   for (const auto& [tag, part] : params.boundary) {
@@ -58,7 +59,7 @@ MembraneScene from_data(const SceneParams& params) {
   scene.interface_level_set = read("interface", params.interface);
   if (!(data.*membranes[0].u).empty()) {
     scene.exact.emplace();
-    scene.exact->multiplier = read("data/lambda", data.lambda);
+    scene.exact->multiplier = read.exact("data/lambda", data.lambda);
   }
   for (int alpha = 0; alpha < scene.count; ++alpha) read_membrane(read, params, membranes[alpha], alpha, scene);
   if (data.initial) {

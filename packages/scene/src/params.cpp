@@ -262,12 +262,17 @@ const core::Schema<DataParams>& DataParams::schema() {
           .parameter("mu", &DataParams::mu, "Model obstacle: tension of the membrane; positive, without it 1.")
           .parameter("f", &DataParams::f, "Model obstacle: force on the membrane; without it 0.")
           .parameter("g", &DataParams::g, "Model obstacle: height of the membrane on the boundary, at least psi; without it that of u.")
-          .parameter("psi", &DataParams::psi, "Model obstacle: height of the obstacle; must be given.")
+          .parameter("psi", &DataParams::psi, "Model obstacle: height of the obstacle; must be given. It should be continuous; on an edge where it jumps the upper height counts.")
           .parameter("u", &DataParams::u, "Model obstacle: exact solution, if known.")
           .parameter("u_x", &DataParams::u_x, "Model obstacle: derivative of u in x; without it differences of u.")
           .parameter("u_y", &DataParams::u_y, "Model obstacle: derivative of u in y; without it differences of u.")
           .parameter("lambda", &DataParams::lambda, "Exact multiplier, if known.")
           .block("initial", &DataParams::initial, InitialParams::schema())
+          .parameter(
+              "degree", &DataParams::degree, core::between(0, 30),
+              "Names the data as exact: mu, f, g, t and psi are polynomials of at most this degree (in x and y, and in t) in every "
+              "cell of the mesh and on either side of the interface. Not needed where an expression is one polynomial: that is seen. "
+              "docs/methods/estimates.md, 8, has what it is good for.")
           .parameter("centre", &DataParams::centre, core::entries(2), "The point from which r is measured.")
           .values("constants", &DataParams::constants,
                   "Named numbers that the expressions of this block, of 'interface' and of 'boundary' may use.");

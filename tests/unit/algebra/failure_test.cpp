@@ -100,7 +100,7 @@ INSTANTIATE_TEST_SUITE_P(all, Failure,
 TEST(DirectSolver, notices_a_singular_matrix_even_if_the_system_has_solutions) {
   const Case run(params(SolverKind::direct), neumann(12), 144, 1, 0);
   EXPECT_FALSE(run.report.converged);
-  EXPECT_EQ(run.report.reason, "the matrix is singular");
+  EXPECT_EQ(run.report.reason.rfind("the matrix is singular: ", 0), 0u) << run.report.reason;
 }
 TEST(DirectSolver, takes_badly_scaled_rows_for_what_they_are) {
   const Row laplace = poisson(12);

@@ -56,6 +56,15 @@ TEST(Expression, knows_which_variables_it_uses) {
   EXPECT_EQ(f.text(), "x*R");
 }
 
+TEST(Expression, knows_what_its_hints_say) {
+  EXPECT_EQ(value("x < 1 && y < 1", 0, 2), 0);
+  EXPECT_EQ(value("x < 1 || y < 1", 0, 2), 1);
+  EXPECT_EQ(value("!(x < 1) + 2*!(y < 1)", 0, 2), 2);
+  EXPECT_EQ(value("x != y", 0, 2), 1);
+  EXPECT_EQ(value("x - 3*rint(x/3 - 0.5)", 7.5), 1.5);
+  EXPECT_EQ(value("2*sin(0*x) + 1e3*R"), 500);
+}
+
 TEST(Expression, does_not_depend_on_the_locale) {
   const WithDecimalComma german;
   EXPECT_EQ(value("max(1.5, x) * 1000", 0), 1500);
@@ -94,7 +103,15 @@ TEST(Expression, says_what_is_wrong_with_the_text) {
   EXPECT_EQ(mistake("1,5*x"), "the expression '1,5*x' has a ',' outside of a function; write a decimal point as '.'.");
   EXPECT_EQ(mistake("sin(x, y)"), "the expression 'sin(x, y)' gives too many arguments to 'sin'.");
   EXPECT_EQ(mistake("atan2(x)"), "the expression 'atan2(x)' gives too few arguments to 'atan2'.");
-  EXPECT_EQ(mistake("2x"), "the expression '2x' can not be read at 'x' (character 2); is an operator missing?");
+  EXPECT_EQ(mistake("2x"), "the expression '2x' has '2x'; write 2*x.");
+  EXPECT_EQ(mistake("x + 1e-3y"), "the expression 'x + 1e-3y' has '1e-3y'; write 1e-3*y.");
+  EXPECT_EQ(mistake("sin x"), "the expression 'sin x' has 'sin' without a '('; write sin(...).");
+  EXPECT_EQ(mistake("x**2"), "the expression 'x**2' has a '**'; write ^ for powers.");
+  EXPECT_EQ(mistake("x < 1 and y < 1"), "the expression 'x < 1 and y < 1' has the word 'and'; write &&.");
+  EXPECT_EQ(mistake("x < 1 or y < 1"), "the expression 'x < 1 or y < 1' has the word 'or'; write ||.");
+  EXPECT_EQ(mistake("not (x < 1)"), "the expression 'not (x < 1)' has the word 'not'; write !.");
+  EXPECT_EQ(mistake("x % 2"),
+            "the expression 'x % 2' has a '%', which means nothing here; the remainder of a by b is a - b*rint(a/b - 0.5).");
   EXPECT_EQ(mistake("nan"), "the expression 'nan' has the unknown name 'nan'; did you mean 'tan'?");
 }
 

@@ -120,6 +120,17 @@ TEST(Adaptive, a_target_behind_a_limit_is_missed_with_the_bound_that_was_reached
                                   " (guaranteed), not 1e-06; refinement ended by adapt/max levels = 1.");
 }
 
+TEST(Adaptive, the_verdict_says_what_the_bound_promises_and_judges_by_it_whatever_that_is) {
+  using complementarity::Promise;
+  Solved run(with_target(2 * first_bound()));
+  for (const Promise promise : {Promise::guaranteed, Promise::up_to_quadrature, Promise::indicator}) {
+    run.outcome.estimate->promise = promise;
+    const Verdict verdict = judge(run.params, run.outcome);
+    EXPECT_EQ(verdict.code, core::ExitCode::done);
+    EXPECT_NE(verdict.sentence.find(std::string(" (") + to_text(promise) + "), as asked for by stopping/target"), std::string::npos);
+  }
+}
+
 TEST(Adaptive, keeps_the_solution_with_the_smallest_bound_where_the_target_is_missed) {
   RunParams params = with_limits(3);
   params.stopping.target = 1e-6;

@@ -44,6 +44,7 @@ class Estimated final : public models::Discretization {
     eta.algebraic = R.norm2();
     eta.linearization = mesh_.comm.sum(below[0]) + 1e-2 * mesh_.comm.sum(below[1]);
     eta.total = eta.discretization + eta.linearization + eta.algebraic;
+    eta.promise = model_.promise;
     cells_ = shared_out(eta);
     return eta;
   }
@@ -55,6 +56,10 @@ class Estimated final : public models::Discretization {
     return published;
   }
   complementarity::KktData kkt_data(const algebra::Vector& X) const override { return inner_->kkt_data(X); }
+  models::Contact contact(const algebra::Vector& X) const override { return inner_->contact(X); }
+  std::vector<double> values_at(const std::vector<models::Probe>& probes, const algebra::Vector& X) const override {
+    return inner_->values_at(probes, X);
+  }
   output::Grid grid() const override { return inner_->grid(); }
   std::vector<output::FieldData> fields(const algebra::Vector& X, const complementarity::ActiveSet& active,
                                         const std::vector<std::string>& names) const override {

@@ -15,6 +15,7 @@ class EstimatedModel final : public models::StationaryModel {
   explicit EstimatedModel(const RunParams& params);
 
   double effectivity = 1.5;
+  complementarity::Promise promise = complementarity::Promise::guaranteed;
   int good_levels = 100;             ///< on finer ones the bound is ten times larger
   mutable int estimates = 0;         ///< calls of `estimate`
   mutable std::vector<int> entered;  ///< levels that were discretized
@@ -22,7 +23,8 @@ class EstimatedModel final : public models::StationaryModel {
 
   std::string name() const override { return inner_->name(); }
   std::string case_name() const override { return inner_->case_name(); }
-  void check(const mesh::Mesh& mesh, const std::vector<std::string>& names) const override { inner_->check(mesh, names); }
+  std::vector<std::string> point_fields() const override { return inner_->point_fields(); }
+  void check(const mesh::Mesh& mesh, const models::Wanted& wanted) const override { inner_->check(mesh, wanted); }
   std::unique_ptr<models::Discretization> discretize(const mesh::Hierarchy& hierarchy, int level) const override;
 
  private:

@@ -118,6 +118,101 @@ TEST(Steps, follow_the_error_in_time) {
   EXPECT_EQ(few.back(), 0.5);
 }
 
+/// Both parts of the error in one ratio, whatever the length: shorter steps are of no use, and not made for ever.
+TEST(Steps, are_not_made_shorter_where_that_is_of_no_use) {
+  RunParams params = half_a_unit(0.01);
+  params.time->adaptive = true;
+  test::Falling scene;
+  scene.error_in_time = 1000;  // ratio 10 at length 0.01, and of all shorter ones
+  scene.alike = 0.01;
+  EvolutionOutcome outcome;
+  const auto ends = times(scene, params, &outcome);
+  EXPECT_TRUE(outcome.solved);
+  EXPECT_EQ(outcome.at.retries, 1);
+  EXPECT_LE(outcome.at.step, 55);
+}
+
+/// An error in time beside none in space: every length above time/smallest is refused, and that one is taken.
+TEST(Steps, at_the_smallest_length_are_taken) {
+  RunParams params = half_a_unit(0.1);
+  params.time->adaptive = true;
+  params.time->smallest = 0.001;
+  test::Falling scene;
+  scene.error_in_time = 1e9;
+  EvolutionOutcome outcome;
+  const auto ends = times(scene, params, &outcome);
+  EXPECT_TRUE(outcome.solved);
+  for (std::size_t i = 1; i + 2 < ends.size(); ++i) EXPECT_NEAR(ends[i] - ends[i - 1], 0.001, 1e-9);
+}
+
+/// However late: the last digits of the time are longer than the step.
+TEST(Steps, end_at_multiples_after_millions_of_them) {
+  TimeParams time;
+  time.step = 0.1;
+  time.end = 1e9;
+  StepControl control(time);
+  for (const double k : {3.0, 5e6 + 1, 1e7 + 3, 123456789.0, 9999999998.0}) {
+    const double begin = k * time.step, end = control.end_of_step(begin);
+    EXPECT_NEAR(end - begin, time.step, 1e-6) << k;
+  }
+}
+
+TEST(Steps, that_are_refused_let_the_run_end) {
+  test::Falling scene;
+  scene.longest_step = 0.01;
+  const auto evolution = test::falling(scene, core::Comm());
+  EvolutionObserver observer;
+  int asked = 0;
+  double data_time = -1;
+  observer.stop = [&](const TimePosition& at, double next, const models::Evolution& known, const Vector& X) -> std::string {
+    if (++asked < 3) return "";
+    EXPECT_EQ(at.step, 0);
+    EXPECT_NEAR(next, 0.1 / 8, 1e-15);
+    data_time = known.save(X).attributes.at("data_time");
+    return "told to end";
+  };
+  const auto outcome = evolve(*evolution, half_a_unit(0.1), observer);
+  EXPECT_EQ(outcome.stopped, "told to end");
+  EXPECT_FALSE(outcome.solved);
+  EXPECT_EQ(outcome.at.retries, 3);
+  EXPECT_EQ(data_time, 0);  // of the state that is kept
+}
+
+TEST(Steps, before_a_mistake_in_the_data_are_kept) {
+  test::Falling scene;
+  scene.wrong_from = 0.35;
+  const auto evolution = test::falling(scene, core::Comm());
+  const auto outcome = evolve(*evolution, half_a_unit(0.1), {});
+  EXPECT_FALSE(outcome.solved);
+  EXPECT_EQ(outcome.mistake, "scene: the data end here.");
+  EXPECT_EQ(outcome.at.step, 3);
+  EXPECT_NEAR(outcome.at.time, 0.3, 1e-15);
+  EXPECT_NEAR(evolution->save(*outcome.X).attributes.at("data_time"), 0.3, 1e-15);
+  scene.wrong_from = 0.05;  // nothing is lost
+  EXPECT_THROW(evolve(*test::falling(scene, core::Comm()), half_a_unit(0.1), {}), core::InputError);
+}
+
+TEST(Steps, have_ends_that_are_known_ahead) {
+  TimeParams time;
+  time.step = 0.1;
+  time.end = 0.45;
+  time.also = {0.25};
+  const auto is = [](const std::vector<double>& found, const std::vector<double>& expected) {
+    ASSERT_EQ(found.size(), expected.size());
+    for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], expected[i], 1e-15);
+  };
+  is(known_times(time, {}, 0), {0.1, 0.2, 0.25, 0.3, 0.4, 0.45});
+  is(known_times(time, {0.05}, 0.2), {0.25, 3 * 0.1, 0.4, 0.45});
+  time.adaptive = true;
+  is(known_times(time, {}, 0), {0.25, 0.45});
+  time.adaptive = false;
+  time.end = 1e6;
+  const auto many = known_times(time, {}, 0);
+  EXPECT_LE(many.size(), 102u);
+  StepControl control(time);
+  for (std::size_t i = 2; i + 1 < many.size(); ++i) EXPECT_EQ(control.end_of_step(many[i] - 0.05), many[i]);
+}
+
 TEST(Steps, go_on_from_a_checkpoint_bit_for_bit) {
   const core::Comm comm;
   const auto folder = std::filesystem::temp_directory_path() / ("thixis_evolution_" + std::to_string(comm.size()));

@@ -103,8 +103,12 @@ class Fall final : public models::Evolution {
   }
   void begin(const models::TimeStep& step, const Vector& before) override {
     length_ = step.length();
+    at_ = step.end;
+    begin_ = step.begin;
+    if (step.end > params_.wrong_from) throw core::InputError("scene: the data end here.");
     step_.begin(step, before);
   }
+  void give_up() override { at_ = begin_; }
   complementarity::Problem& problem() override { return step_; }
   bool predict(Vector& X) override {
     if (params_.misleading) X.putScalar(std::numeric_limits<double>::quiet_NaN());
@@ -112,7 +116,9 @@ class Fall final : public models::Evolution {
   }
   complementarity::Estimate estimate(const Vector&) override { return {1, 1, 0, 0, 0, 0}; }
   models::CellEstimates cell_estimates() const override { return {}; }
-  std::optional<models::StepErrors> step_errors() const override { return models::StepErrors{params_.error_in_time * length_, 1}; }
+  std::optional<models::StepErrors> step_errors() const override {
+    return models::StepErrors{params_.error_in_time * std::max(length_, params_.alike < 1e300 ? params_.alike : 0), 1};
+  }
   void accept(const Vector& X) override { sum_ += X.norm1() * length_; }
   std::optional<double> energy_error() const override { return sum_; }
 
@@ -138,7 +144,7 @@ class Fall final : public models::Evolution {
       block.ids.push_back(X.getMap()->getGlobalElement(static_cast<LocalIndex>(i)));
       block.values.push_back(x(i));
     }
-    return {{block}, {{"sum", sum_}}};
+    return {{block}, {{"sum", sum_}, {"data_time", at_}}};
   }
   Teuchos::RCP<Vector> restore(const output::StoredCheckpoint& stored) override {
     auto X = Teuchos::rcp(new Vector(step_.map()));
@@ -161,7 +167,8 @@ class Fall final : public models::Evolution {
   core::Comm comm_;
   algebra::MapPtr points_;
   Step step_;
-  double length_ = 0, sum_ = 0;
+  double length_ = 0, sum_ = 0, begin_ = 0;
+  double at_ = 0;  ///< the time of the data
 };
 
 }  // namespace

@@ -75,6 +75,14 @@ TEST(Expectations, judge_bound_and_effectivity) {
   outcome.estimate->total = 0.11;
   EXPECT_EQ(missed(expect, found(outcome)),
             (std::vector<std::string>{"bound 0.11 is above 0.1", "effectivity 2.2 is not between 1 and 2"}));
+  using complementarity::Promise;
+  for (const Promise promise : {Promise::guaranteed, Promise::up_to_quadrature, Promise::indicator}) {
+    outcome.estimate->promise = promise, outcome.estimate->total = 0.09;
+    expect.promise = Promise::up_to_quadrature;
+    EXPECT_EQ(missed(expect, found(outcome)).empty(), promise != Promise::indicator) << to_text(promise);
+  }
+  EXPECT_EQ(missed(expect, found(outcome)), std::vector<std::string>{"the bound is 'indicator', not 'up to quadrature of the data'"});
+  expect.promise.reset();
   outcome.estimate->total = 0.04;
   EXPECT_EQ(missed(expect, found(outcome)), std::vector<std::string>{"effectivity 0.8 is not between 1 and 2"});
 }

@@ -36,14 +36,14 @@ std::map<std::string, long> lengths(const Mesh& mesh) {
   return by_tag;
 }
 
-/// A mesh file of format 2.2, written by the root, removed at the end.
+/// A file with this content, written by the root, removed at the end.
 class Scratch {
  public:
-  explicit Scratch(const std::string& content) {
+  explicit Scratch(const std::string& content, const std::string& ending = ".msh") {
     long long process = getpid();
     comm_.broadcast(process);
-    path_ = std::filesystem::temp_directory_path() / ("thixis-mesh-" + std::to_string(process) + ".msh");
-    if (comm_.root()) std::ofstream(path_) << content;
+    path_ = std::filesystem::temp_directory_path() / ("thixis-mesh-" + std::to_string(process) + ending);
+    if (comm_.root()) std::ofstream(path_, std::ios::binary) << content;
     comm_.barrier();
   }
   ~Scratch() {
@@ -95,7 +95,7 @@ TEST(gmsh_file, of_either_format_gives_the_same_mesh) {
 TEST(gmsh_file, names_the_parts_of_the_boundary_by_its_physical_curves) {
   for (const Mesh& mesh : import("l_shape_41.msh", 3).levels) {
     const std::map<std::string, long> by_tag = lengths(mesh);
-    const std::map<std::string, long> expected = {{"clamped side", 80}, {"physical 7", 20}, {"physical 4", 0}, {"boundary", 60}};
+    const std::map<std::string, long> expected = {{"clamped side", 80}, {"physical 7", 20}, {"boundary", 60}};
     EXPECT_EQ(by_tag, expected);
   }
 }
@@ -183,11 +183,31 @@ TEST(gmsh_file, with_loose_edges_in_a_group_is_refused) {
             " has edges in physical groups that are no side of a triangle; remove them.");
 }
 
-TEST(gmsh_file, with_an_edge_in_two_groups_is_refused) {
-  EXPECT_EQ(
-      refusal(with_elements({"2 2 0 1 1 2 3", "1 2 5 8 1 2", "1 2 6 9 2 1"})),
-      ": the edge from (0, 0) to (1, 0) of the group 'physical 5' is in the group 'physical 6', too; put each edge of the boundary in one "
-      "group.");
+TEST(gmsh_file, may_have_an_edge_in_two_groups) {
+  const Scratch file(with_elements({"2 2 0 1 1 2 3", "1 2 5 8 1 2", "1 2 6 9 2 1", "1 2 6 9 1 3"}));
+  const Mesh mesh = import(file.path(), 1).finest();
+  const std::map<std::string, long> expected = {{"physical 5 ∩ physical 6", 20}, {"physical 6", 20}, {"boundary", 28}};
+  EXPECT_EQ(lengths(mesh), expected);
 }
+
+TEST(gmsh_file, is_never_executed) {
+  const Scratch witness("", "witness");
+  std::filesystem::remove(witness.path());
+  const std::string command = "SystemCall \"touch " + witness.path() + "\";\n", mesh = with_elements({"2 2 0 1 1 2 3"});
+  const std::string merge = "Merge \"" + std::string(MESH_FILES) + "/l_shape_22.msh\";\n", comment = "/*\n" + mesh + "*/\n";
+  for (const std::string ending : {".msh", ".geo", ".pos", ".opt", ".msh.opt", ".py", ""}) {
+    for (const std::string& script : {command, comment + command, command + merge, mesh + command, "\n" + comment + command + merge}) {
+      const Scratch file(script, ending);
+      EXPECT_THROW(import(file.path()), core::InputError);
+    }
+    const Scratch commented("$Comments\n" + command + "$EndComments\n" + mesh, ending);
+    EXPECT_EQ(import(commented.path()).finest().global_cells, 1);
+  }
+  const Scratch plain(mesh, ".msh"), options(command, ".msh.opt");
+  import(plain.path());
+  EXPECT_FALSE(std::filesystem::exists(witness.path()));
+}
+
+TEST(gmsh_file, that_is_no_regular_file_is_a_file_error) { EXPECT_THROW(import("/dev/zero"), core::FileError); }
 
 }  // namespace thixis::mesh

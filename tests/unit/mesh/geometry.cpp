@@ -91,4 +91,14 @@ TEST(statistics, of_a_coarse_disk_are_those_of_the_hexagon) {
   EXPECT_NEAR(s.smallest_angle, M_PI / 3, 1e-12);
 }
 
+TEST(bounding_box, is_that_of_all_ranks) {
+  const Box box = bounding_box(rectangle(3, 1).finest());
+  EXPECT_EQ(box.lower[0], -1);
+  EXPECT_EQ(box.lower[1], 0.5);
+  EXPECT_EQ(box.upper[0], 2);
+  EXPECT_EQ(box.upper[1], 2);
+  EXPECT_EQ(box.side(1), 1.5);
+  EXPECT_NEAR(box.diagonal(), std::hypot(3, 1.5), 1e-15);
+}
+
 }  // namespace thixis::mesh

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "thixis/algebra/tpetra.hpp"
+#include "thixis/core/error.hpp"
 
 namespace thixis::method {
 namespace {
@@ -59,6 +60,19 @@ std::map<std::pair<GlobalIndex, GlobalIndex>, double> expected_matrix(GlobalInde
 }
 
 }  // namespace
+
+TEST(Graph, refuses_elements_that_are_too_wide) {
+  const Chain chain(5);
+  const auto graph = make_graph(chain.rows, chain.columns, chain.unknowns);
+  algebra::Matrix A(graph);
+  const Kokkos::View<double***, Kokkos::LayoutRight> wide("wide", 1, 70, 70);
+  try {
+    scatter(chain.unknowns, 0, wide, A);
+    FAIL();
+  } catch (const core::Error& error) {
+    EXPECT_STREQ(error.what(), "An element has 70 unknowns, and the assembly of its matrix serves at most 64.");
+  }
+}
 
 TEST(Graph, couples_the_unknowns_of_each_element_and_no_others_sorted) {
   const Chain chain(23);

@@ -65,7 +65,7 @@ inline algebra::Vector residual(const FluxProblem& problem, const Coefficients& 
 
 inline View<double**> flux(const FluxProblem& problem, const Coefficients& u) {
   const View<double**> sigma("sigma", problem.V.mesh().owned_cells, 2 * reference::dimension(problem.V.flux_degree() + 1));
-  problem.V.native_flux(*problem.tension, *problem.force, u, problem.boundary, 0, sigma);
+  problem.V.native_flux(*problem.tension, *problem.force, u, problem.boundary, 0, {}, sigma);
   return sigma;
 }
 

@@ -8,6 +8,7 @@
 
 #include "hdf5_file.hpp"
 #include "scratch.hpp"
+#include "seal.hpp"
 
 namespace thixis::output {
 namespace {
@@ -194,18 +195,83 @@ TEST(checkpoint, that_is_none_gets_a_sentence_on_all_ranks) {
   const std::string advice = "give the checkpoint.h5 in the output directory of a run.";
   EXPECT_EQ(sentence(folder + "/absent.h5"), "There is no checkpoint '" + folder + "/absent.h5'; " + advice);
   EXPECT_EQ(sentence(folder), "'" + folder + "' is a folder; give the checkpoint.h5 in it.");
+  const auto no_checkpoint = [&](const std::string& name) {
+    return "'" + folder + name + "' is no checkpoint of Thixis, or one of an older version, without a seal; " +
+           advice.substr(0, advice.size() - 1) + ", or use the Thixis that wrote it.";
+  };
   comm.on_root([&] { std::ofstream(folder + "/deck.xml") << "<ParameterList name=\"thixis\"/>"; });
-  EXPECT_EQ(sentence(folder + "/deck.xml"), "'" + folder + "/deck.xml' is no checkpoint of Thixis; " + advice);
+  EXPECT_EQ(sentence(folder + "/deck.xml"), no_checkpoint("/deck.xml"));
+  comm.on_root([&] { std::ofstream(folder + "/empty.h5") << ""; });
+  EXPECT_EQ(sentence(folder + "/empty.h5"), no_checkpoint("/empty.h5"));
   Hdf5File(folder + "/fields.h5", Hdf5File::Mode::create, 10000, comm).close();
-  EXPECT_EQ(sentence(folder + "/fields.h5"), "'" + folder + "/fields.h5' is no checkpoint of Thixis; " + advice);
-  {
-    Hdf5File later(folder + "/later.h5", Hdf5File::Mode::create, 10000, comm);
-    later.add_text("/format", "thixis checkpoint");
-    later.add_attribute("/", "version", GlobalIndex{2});
-    later.close();
-  }
+  EXPECT_EQ(sentence(folder + "/fields.h5"), no_checkpoint("/fields.h5"));
+  EXPECT_EQ(sentence("/dev/zero"), "'/dev/zero' is no regular file, but a pipe or a device; " + advice);
+  Hdf5File(folder + "/later.h5", Hdf5File::Mode::create, 10000, comm, seal_bytes).close();
+  comm.on_root([&] { write_seal(folder + "/later.h5", {"thixis checkpoint", 3}); });
   EXPECT_EQ(sentence(folder + "/later.h5"),
-            "The checkpoint '" + folder + "/later.h5' has version 2, this program reads version 1; use the Thixis that wrote it.");
+            "The checkpoint '" + folder + "/later.h5' has format 3, this program reads format 2; use the Thixis that wrote it.");
+}
+
+TEST(checkpoint, is_damaged_by_every_byte_that_is_another_one) {
+  const core::Comm comm;
+  const std::string path = scratch("checkpoint_bytes") + "/checkpoint.h5";
+  write_checkpoint(path, example(comm), comm);
+  const std::string whole = content(path), damaged = "The checkpoint '" + path + "' is damaged;";
+  comm.barrier();
+  const auto refused = [&] {
+    return sentence_of(core::ExitCode::input_output, [&] { read_checkpoint(path, comm); }).compare(0, damaged.size(), damaged) == 0;
+  };
+  const std::size_t stride = comm.size() == 1 ? 3 : 997;
+  for (std::size_t at = 0; at < whole.size(); at += at < seal_bytes && comm.size() == 1 ? 1 : stride) {
+    const auto put = [&](char byte) {
+      comm.on_root([&] {
+        std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
+        file.seekp(static_cast<std::streamoff>(at)).put(byte);
+      });
+    };
+    put(static_cast<char>(whole[at] ^ (1 << at % 8)));
+    EXPECT_TRUE(refused()) << "byte " << at;
+    put(whole[at]);
+  }
+  EXPECT_EQ(read_checkpoint(path, comm).level(), 3) << "and whole it is whole";
+  comm.barrier();
+  comm.on_root([&] { std::ofstream(path, std::ios::binary) << whole << '\0'; });
+  EXPECT_TRUE(refused()) << "one byte more";
+  for (const std::size_t size : {whole.size() - 1, whole.size() / 2, seal_bytes + 100, seal_bytes, seal_bytes - 1, std::size_t{100}}) {
+    comm.on_root([&] { std::ofstream(path, std::ios::binary) << whole.substr(0, size); });
+    EXPECT_TRUE(refused()) << size << " bytes";
+  }
+}
+
+TEST(checkpoint, does_not_give_numbers_that_no_run_has) {
+  const core::Comm comm;
+  const std::string path = scratch("checkpoint_numbers") + "/checkpoint.h5";
+  const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+  Checkpoint checkpoint = example(comm);
+  checkpoint.attributes = {{"steps", 3}, {"time", 0.1}, {"half", 0.5}, {"below", -1}, {"many", 1e300}, {"nan", nan}, {"inf", inf}};
+  checkpoint.blocks = {list_block("halves", {0}, comm.root()), {"u", {}, {}}};
+  if (comm.root()) {
+    checkpoint.blocks[0].values = {0.5};
+    checkpoint.blocks[1] = {"u", {0, 1}, {1, inf}};
+  }
+  write_checkpoint(path, checkpoint, comm);
+  const auto stored = read_checkpoint(path, comm);
+  const auto refused = [&](const std::function<void()>& action, const std::string& end) {
+    const std::string sentence = sentence_of(core::ExitCode::input_output, action);
+    EXPECT_TRUE(sentence.size() > end.size() && sentence.substr(sentence.size() - end.size()) == end) << sentence;
+  };
+  EXPECT_EQ(stored.count("steps"), 3);
+  EXPECT_EQ(stored.number("time", 0), 0.1);
+  refused([&] { (void)stored.count("steps", 2); }, " No run has 3 as its 'steps'.");
+  refused([&] { (void)stored.count("half"); }, " No run has 0.5 as its 'half'.");
+  refused([&] { (void)stored.count("below"); }, " No run has -1 as its 'below'.");
+  refused([&] { (void)stored.count("many"); }, " No run has 1e+300 as its 'many'.");
+  refused([&] { (void)stored.number("below", 0); }, " No run has -1 as its 'below'.");
+  refused([&] { (void)stored.number("nan"); }, " No run has nan as its 'nan'.");
+  refused([&] { (void)stored.number("inf"); }, " No run has inf as its 'inf'.");
+  refused([&] { (void)stored.fetch_list("halves"); }, " No run has 0.5 as its 'halves'.");
+  refused([&] { (void)stored.fetch_finite("u", {0, 1}); }, " No run has inf as its 'u'.");
+  EXPECT_EQ(stored.fetch_finite("u", {0}), std::vector<double>{1});
 }
 
 TEST(checkpoint, that_is_damaged_is_not_believed) {

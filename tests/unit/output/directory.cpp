@@ -22,7 +22,7 @@ std::string refusal(const std::string& path, const std::string& reason) {
 TEST(directory, comes_into_being_with_its_parents_only_when_asked) {
   const core::Comm comm;
   const std::string folder = scratch("directory");
-  const RunDirectory directory(folder + "/a/b");
+  RunDirectory directory(folder + "/a/b");
   EXPECT_EQ(directory.path(), folder + "/a/b");
   EXPECT_EQ(directory.summary(), folder + "/a/b/summary.json");
   EXPECT_EQ(directory.file("x.vtk"), folder + "/a/b/x.vtk");
@@ -45,6 +45,40 @@ TEST(directory, that_can_not_be_made_is_an_error_on_all_ranks) {
   EXPECT_EQ(refused(file + "/a/b"), refusal(file + "/a/b", "'" + file + "' is a file"));
   EXPECT_EQ(refused(""), refusal("", "its name is empty"));
   EXPECT_EQ(refused("/proc/none/a"), refusal("/proc/none/a", "No such file or directory"));
+}
+
+TEST(directory, is_of_one_run_at_a_time) {
+  const core::Comm comm;
+  const std::string folder = scratch("directory_locked");
+  const std::string taken = "Another run writes to the folder '" + folder + "' now; ";
+  {
+    RunDirectory first(folder);
+    first.create(comm);
+    first.create(comm);
+    EXPECT_EQ(refused(folder).substr(0, taken.size()), taken);
+    RunDirectory(folder + "/inside").create(comm);
+  }
+  comm.barrier();
+  EXPECT_NO_THROW(RunDirectory(folder).create(comm));
+  EXPECT_FALSE(std::filesystem::exists(folder + "/.lock")) << "nothing is left";
+}
+
+TEST(directory, may_be_a_link_and_holds_none_that_would_be_written_through) {
+  const core::Comm comm;
+  const std::string folder = scratch("directory_links");
+  comm.on_root([&] {
+    std::filesystem::create_directory(folder + "/there");
+    std::filesystem::create_directory_symlink("there", folder + "/here");
+  });
+  EXPECT_NO_THROW(RunDirectory(folder + "/here").create(comm));
+  for (const char* name : {"log.txt", "summary.json", "history.csv", "checkpoint.h5", "checkpoint.h5.part", "fields.h5", "fields"}) {
+    const std::string link = folder + "/there/" + name;
+    comm.on_root([&] { std::filesystem::create_symlink("/nowhere/at/all", link); });
+    const std::string sentence = refused(folder + "/here");
+    EXPECT_NE(sentence.find(std::string("/") + name + "' can not be written: there is a link of this name"), std::string::npos) << sentence;
+    comm.on_root([&] { std::filesystem::remove(link); });
+  }
+  EXPECT_NO_THROW(RunDirectory(folder + "/here").create(comm));
 }
 
 TEST(directory, that_is_protected_is_an_error_on_all_ranks) {

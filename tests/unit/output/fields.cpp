@@ -164,7 +164,8 @@ TEST(fields, in_an_impossible_place_are_refused_on_all_ranks_in_one_sentence) {
   const auto sentence = [&](const std::string& place) { return sentence_of(input_output, [&] { FieldWriter(place, comm); }); };
   EXPECT_EQ(sentence(folder + "/none"), "The file '" + folder + "/none/fields.h5' can not be created: No such file or directory.");
   EXPECT_EQ(sentence(folder + "/file"), "The file '" + folder + "/file/fields.h5' can not be created: Not a directory.");
-  EXPECT_EQ(sentence(folder + "/taken"), "The file '" + folder + "/taken/fields.h5' can not be created: Is a directory.");
+  const std::string taken = "The file '" + folder + "/taken/fields.h5' can not be written: there is a folder of this name, and ";
+  EXPECT_EQ(sentence(folder + "/taken").substr(0, taken.size()), taken);
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
 }
 
@@ -240,7 +241,7 @@ TEST(fields, of_a_refined_disk_are_left_for_other_readers) {
   for (LocalIndex a = 0; a < mesh.vertices; ++a) tx.values[a] = 0.5 * x(a, 0);
   series.write(mesh, {tx}, 0.5);
   series.close();
-  read_xdmf("output_" + std::to_string(comm.size()) + "/for_meshio/single");
+  read_xdmf((scratch_folder(comm.size()) / "for_meshio/single").string());
 }
 
 TEST(fields, can_be_written_on_every_level_of_a_hierarchy) {

@@ -161,6 +161,19 @@ TEST(frames, that_are_written_again_may_be_damaged_and_those_that_stay_may_not) 
     run(folder, 2, 3, comm);
     expect_same(folder, whole);
   }
+  for (const std::size_t at : {0u, 40u, 511u, 512u, 700u, 3000u}) {
+    const std::string bytes = content(frame(folder, 1));
+    comm.barrier();
+    comm.on_root([&] {
+      std::string turned = bytes;
+      turned[at] ^= 1;
+      std::ofstream(frame(folder, 1), std::ios::binary) << turned;
+    });
+    EXPECT_EQ(sentence_of(input_output, [&] { FieldWriter::series(folder, comm, 3); }),
+              "The fields can not go on in time: the file '" + frame(folder, 1) + "' is damaged; begin anew with 'thixis run'.")
+        << "byte " << at;
+    comm.on_root([&] { std::ofstream(frame(folder, 1), std::ios::binary) << bytes; });
+  }
   EXPECT_EQ(sentence_of(input_output, [&] { FieldWriter::series(folder, comm, 4); }),
             "The fields can not go on in time: the file '" + frame(folder, 3) + "' is missing; begin anew with 'thixis run'.");
   comm.on_root([&] { fs::copy_file(frame(folder, 0), frame(folder, 1), fs::copy_options::overwrite_existing); });

@@ -14,10 +14,15 @@
 
 namespace thixis::output {
 
+/// The folder of all tests on so many ranks, in the folder where the test was built: wherever it is called from, nothing is left there.
+inline std::filesystem::path scratch_folder(int ranks) {
+  return std::filesystem::path(THIXIS_SCRATCH) / ("output_" + std::to_string(ranks));
+}
+
 /// A fresh folder for one test, of its own for each number of ranks.
 inline std::string scratch(const std::string& name) {
   const core::Comm comm;
-  const std::filesystem::path folder = std::filesystem::path("output_" + std::to_string(comm.size())) / name;
+  const std::filesystem::path folder = scratch_folder(comm.size()) / name;
   comm.on_root([&] {
     std::filesystem::remove_all(folder);
     std::filesystem::create_directories(folder);

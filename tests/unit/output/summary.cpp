@@ -76,8 +76,8 @@ TEST(summary, is_read_back_as_it_was) {
   s.linear_iterations = 16;
   s.energy_error = 1.0 / 3;
   s.energy_norm = 17;
-  s.estimate.emplace(SummaryEstimate{1.5, 1.25, 0.125, 0.0625, {}});
-  s.estimate_published.emplace(SummaryEstimate{2.5, 2.25, 0.5, 0.25, {{"oscillation", 1e-300}, {"jumps", 3}}});
+  s.estimate.emplace(SummaryEstimate{1.5, 1.25, 0.125, 0.0625, "guaranteed", {}, {}});
+  s.estimate_published.emplace(SummaryEstimate{2.5, 2.25, 0.5, 0.25, "indicator", {"f"}, {{"oscillation", 1e-300}, {"jumps", 3}}});
   s.effectivity = 1.1;
   s.effectivity_published = 7.3;
   s.kkt.infeasible = 1e-17;
@@ -103,9 +103,10 @@ TEST(summary, is_read_back_as_it_was) {
   EXPECT_EQ(json["linear_iterations"], 16);
   EXPECT_EQ(json["energy_error"], 1.0 / 3);
   EXPECT_EQ(json["energy_norm"], 17);
-  EXPECT_EQ(json["estimate"], (Json{{"total", 1.5}, {"discretization", 1.25}, {"linearization", 0.125}, {"algebraic", 0.0625}}));
-  EXPECT_EQ(keys(json["estimate_published"]),
-            (std::vector<std::string>{"total", "discretization", "linearization", "algebraic", "oscillation", "jumps"}));
+  EXPECT_EQ(json["estimate"],
+            (Json{{"total", 1.5}, {"discretization", 1.25}, {"linearization", 0.125}, {"algebraic", 0.0625}, {"promise", "guaranteed"}}));
+  EXPECT_EQ(keys(json["estimate_published"]), (std::vector<std::string>{"total", "discretization", "linearization", "algebraic", "promise",
+                                                                        "doubts", "oscillation", "jumps"}));
   EXPECT_EQ(json["estimate_published"]["oscillation"], 1e-300);
   EXPECT_EQ(json["effectivity"], 1.1);
   EXPECT_EQ(json["effectivity_published"], 7.3);
@@ -144,7 +145,7 @@ TEST(summary, has_null_for_numbers_that_are_not_finite) {
   Summary s;
   s.energy_error = NAN;
   s.effectivity = INFINITY;
-  s.estimate.emplace(SummaryEstimate{NAN, 1, -INFINITY, 1, {}});
+  s.estimate.emplace(SummaryEstimate{NAN, 1, -INFINITY, 1, "indicator", {}, {}});
   s.kkt.negative = NAN;
   s.time.mesh = NAN;
   s.memory_mb = NAN;

@@ -52,6 +52,22 @@ TEST(Field, names_the_function_and_the_point_where_it_is_not_finite) {
   EXPECT_EQ(message_of([&] { expression("f", "1/0", {0, 0}, {}); }), "f: '1/0' is not a finite number.");
 }
 
+TEST(Field, names_the_function_that_is_too_large_for_products_of_data) {
+  const std::string why =
+      "too large to compute with, since products of data must be numbers, too: write the data in units in which they are at most 1e+60.";
+  Sample sample;
+  sample.add(2, 0);
+  EXPECT_EQ(message_of([&] {
+              sample(expression("scene/data/f1", "1e300*x", {0, 0}, {}));
+            }),
+            "scene/data/f1: the value at x = 2, y = 0, t = 0 is 2e+300, " + why);
+  EXPECT_EQ(message_of([&] {
+              sample(expression("scene/data/f1", "-1e60*x", {0, 0}, {}));
+            }),
+            "scene/data/f1: the value at x = 2, y = 0, t = 0 is -2e+60, " + why);
+  EXPECT_EQ(message_of([&] { expression("f", "1e308", {0, 0}, {}); }), "f: 1e+308 is " + why);
+}
+
 TEST(Field, names_the_function_whose_expression_can_not_be_read) {
   EXPECT_EQ(message_of([] { expression("scene/data/f1", "sin(", {0, 0}, {}); }).find("scene/data/f1: "), 0u);
   EXPECT_NE(message_of([] { expression("scene/data/f1", "2 z", {0, 0}, {}); }).find("2 z"), std::string::npos);

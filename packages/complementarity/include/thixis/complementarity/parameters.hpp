@@ -53,7 +53,8 @@ struct StoppingParams {
   std::optional<double> target;
   Measure measure = Measure::residual;  ///< two-phase flow
   std::optional<double> time_scale;     ///< alpha, two-phase flow, in the unit of time of the deck; not given: 2500 years
-  std::optional<double> friedrichs;     ///< h_Omega C_PF of the bound of the literature; not given: that of the box around the domain
+  std::optional<double>
+      friedrichs;  ///< h_Omega C_PF of the bounds in time and of the literature; not given: that of the box around the domain
   static const core::Schema<StoppingParams>& schema();
 };
 

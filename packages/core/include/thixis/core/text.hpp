@@ -12,6 +12,16 @@ std::optional<std::string> nearest(const std::string& name, const std::vector<st
 std::string did_you_mean(const std::string& name, const std::vector<std::string>& candidates, const std::string& otherwise = "Valid here:");
 std::string join(const std::vector<std::string>& words, const std::string& separator = ", ");
 
+/// A text that a terminal shows as it is, for words of others: control characters (terminal escapes), those that turn the direction of
+/// writing, and bytes that are not UTF-8 become \x1b, \u202e, \xff. Ends of lines and tabs stay.
+std::string printable(const std::string& text);
+/// The same on one line: ends of lines and tabs become \x0a, \x09, too.
+std::string one_line(const std::string& text);
+/// The place of the first control character but tab, line feed and carriage return, or of the first byte that is not UTF-8; npos: none.
+std::size_t first_unprintable(const std::string& text);
+/// The text, or its beginning and end with "..." between them where it has more than `most` bytes.
+std::string shortened(const std::string& text, std::size_t most);
+
 /// A finite number and nothing else but spaces around it; no hex, no inf, no nan. Independent of the locale.
 std::optional<double> to_double(const std::string& text);
 std::optional<long long> to_integer(const std::string& text);

@@ -31,16 +31,16 @@ struct StepRecord {
 
 /// Who follows a run in time; functions may be empty. Called on all ranks with equal values.
 struct EvolutionObserver {
-  /// Within step n = at.step + 1, which ends at `end`.
-  std::function<void(const TimePosition& at, double end, const complementarity::NewtonRecord&)> newton;
-  std::function<void(const TimePosition& at, double end, const complementarity::LinearRecord&)> check;
+  /// Within step n = at.step + 1, which ends at `end`; `error`: of the step, where its estimate was computed and the solution is known.
+  std::function<void(const TimePosition& at, double end, const complementarity::NewtonRecord&, std::optional<double> error)> newton;
+  std::function<void(const TimePosition& at, double end, const complementarity::LinearRecord&, std::optional<double> error)> check;
   /// An attempt was given up: why, and the length of the next one.
   std::function<void(const TimePosition& at, double length, const std::string& why, double next)> retry;
   /// The mesh was refined before the step is begun again.
   std::function<void(const TimePosition& at, GlobalIndex marked, const models::Evolution&)> refined;
   /// After a step, and once before the first step of a run that is not a restart.
   std::function<void(const StepRecord&, const models::Evolution&, const algebra::Vector& X, const complementarity::ActiveSet&)> step;
-  /// After `step`: whether the run is to end here. A sentence says why; empty: go on.
+  /// After `step`, and again before a step is begun anew: whether the run is to end here. A sentence says why; empty: go on.
   std::function<std::string(const TimePosition&, double next_length, const models::Evolution&, const algebra::Vector& X)> stop;
   std::function<void(const std::string&)> message;
 };
@@ -56,6 +56,8 @@ struct EvolutionOutcome {
   bool steps_too_long = false;              ///< in a step whose share was too large, most of it was the error in time
   std::string why;                          ///< not solved: one sentence
   std::string stopped;                      ///< ended by EvolutionObserver::stop: its sentence
+  std::string mistake;                      ///< in the data of the step that would have come: what an InputError said
+  complementarity::ActiveSet active;        ///< of X
   complementarity::NewtonReport last;       ///< of the last attempt
   std::optional<complementarity::Kkt> kkt;  ///< at X
   double kkt_tolerance = 0;
@@ -66,7 +68,8 @@ struct EvolutionOutcome {
 ///     begin the step; semismooth Newton from a prediction, if the model has one, and from the state before; where it fails, the step is
 ///     cut in half and begun again; accept.
 ///
-/// The run ends without success where a step would have to be shorter than time/smallest. With time/adaptive a step whose error in time is
+/// The run ends without success where a step would have to be shorter than time/smallest. Where data of a later step are wrong it ends at
+/// the last good one (`mistake`); in the first step that is an InputError. With time/adaptive a step whose error in time is
 /// too large is begun again, shorter; with a target (stopping/target bounds the error over all time) one whose share is too large,
 /// |eta_disc|² > target² length/end, is begun again on a finer mesh, as far as `adapt` allows and unless most of it is the error in time,
 /// which only shorter steps take away.

@@ -1,11 +1,14 @@
 #pragma once
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "thixis/algebra/solver.hpp"
+#include "thixis/complementarity/estimate.hpp"
 #include "thixis/complementarity/parameters.hpp"
 #include "thixis/core/schema.hpp"
+#include "thixis/core/uses.hpp"
 #include "thixis/mesh/build.hpp"
 #include "thixis/method/space.hpp"
 #include "thixis/scene/membranes.hpp"
@@ -42,9 +45,14 @@ struct TimeParams {
   double end = 1;
   bool adaptive = false;           ///< the time part of the estimate controls the steps
   std::vector<double> also;        ///< further times at which a step ends
-  std::optional<double> smallest;  ///< a step that has been cut below it ends the run; not given: step / 2^20
+  std::optional<double> smallest;  ///< a step that has been cut below it ends the run; not given: step / 2^20, at least resolution * end
   std::optional<double> largest;   ///< adaptive: no longer step; not given: the end
   double growth = 2;               ///< the next step after a cut or of an adaptive run is at most so many times longer
+
+  /// Of one length. With more of them multiples of the length could not be told from what round-off makes of them.
+  static constexpr double most_steps = 1e6;
+  /// Of the end: a shorter step hardly moves the time, whose digits end at 1e-16 of it.
+  static constexpr double resolution = 1e-13;
   static const core::Schema<TimeParams>& schema();
 };
 
@@ -60,6 +68,14 @@ struct AdaptParams {
   static const core::Schema<AdaptParams>& schema();
 };
 
+/// A sublist of `expect/at`: a value that a field must have at a point.
+struct ExpectAtParams {
+  std::vector<double> place;    ///< x, y; on an interval x
+  std::string field;            ///< one of Model::point_fields
+  std::vector<double> between;  ///< smallest and largest value
+  static const core::Schema<ExpectAtParams>& schema();
+};
+
 /// Block `expect` of the deck: what the run checks of its own result (exit code 4 if it does not hold).
 struct ExpectParams {
   std::optional<double> energy_error_at_most;
@@ -68,10 +84,13 @@ struct ExpectParams {
   std::optional<double> kkt_at_most;
   std::optional<std::vector<double>> effectivity_between;
   std::optional<double> bound_at_most;
+  std::optional<complementarity::Promise> promise;
   std::optional<long long> unknowns, cells;
   std::optional<int> steps_at_most, retries_at_most;
   std::optional<double> water_balance_at_most, hydrogen_balance_at_most;
   std::optional<std::vector<double>> front_between;
+  std::optional<std::vector<double>> energy_norm_between, contact_area_between, force_between;
+  std::map<std::string, ExpectAtParams> at;
   static const core::Schema<ExpectParams>& schema();
 };
 
@@ -88,6 +107,8 @@ struct RunParams {
   OutputParams output;
   ExpectParams expect;
   static const core::Schema<RunParams>& schema();
+  static const core::Uses<RunParams>& uses();  ///< when its entries take part
+  std::string as_deck() const;                 ///< XML, with what takes part, which runs again as it is
 
   /// Whether meshes are added to those of the deck: for a target, or because a block `adapt` asks for it.
   bool adaptive() const { return adapt || stopping.target; }

@@ -12,6 +12,20 @@ namespace thixis::drive {
 /// Refuses what the schema knows but no code serves yet, and combinations that can not work. Throws InputError.
 void check_served(const RunParams& params);
 
+/// What a run would find before its first step and what shows without a mesh: data at later times that leave no solution. Throws
+/// InputError.
+void check_ahead(const RunParams& params, const models::Model& model);
+
+/// A deck to start from for a model or a catalogued case: a mesh and a method that serve it, data where there is no case. Nothing if
+/// `scene` is neither.
+std::optional<RunParams> starting(const std::string& scene);
+
+/// The fields and points that a deck asks for.
+models::Wanted wanted(const RunParams& params);
+/// Refuses points and fields of `expect/at` and `output/probes` that the model can not have, as far as no mesh is needed to know it. Throws
+/// InputError.
+void check_wanted(const RunParams& params, const models::Model& model);
+
 /// Runs a deck from its mesh to its files: mesh, solve, verify, `expect`, output, verdict. Nothing is written before mesh and scene are
 /// known to be valid. Returns the exit code; the same on all ranks.
 ///

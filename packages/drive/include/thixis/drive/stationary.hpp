@@ -1,5 +1,6 @@
 #pragma once
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -52,11 +53,14 @@ struct Outcome {
   double kkt_tolerance = 0;  ///< what the verifier lets pass
   std::optional<double> energy_error;
   double energy_norm = 0;
+  std::optional<models::Contact> contact;
+  std::map<std::string, double> at_points;            ///< what `expect/at` asks for, by its names
   bool nested = false;                                ///< the level began (also before a restart) from the solution on the one before
   std::optional<complementarity::Estimate> estimate;  ///< at X, where the error is estimated; not if X is not finite
   models::CellEstimates cell_estimates;
   std::optional<models::PublishedEstimate> published;  ///< stopping/estimate = true only
   std::string refinement_ended;  ///< adaptive runs that ended without the target: by which limit, e.g. "adapt/max levels = 3"
+  std::string to_try;            ///< then: a clause that says what to set
 
   std::optional<double> effectivity() const;  ///< estimate / energy error, if both are known
 };

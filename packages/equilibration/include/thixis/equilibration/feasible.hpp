@@ -13,6 +13,7 @@ namespace thixis::equilibration {
 ///
 ///     u_h  ->  s_c: continuous (nodal averages, Dirichlet nodes from g; u_h itself for conforming spaces)
 ///          ->  s_N: gaps below zero at the nodes are closed, each membrane giving way by theta_alpha (mu_2, mu_1 over mu_1 + mu_2)
+///          ->  over an obstacle that jumps inside cells: raised to a continuous majorant of it there
 ///          ->  s:   + lift of g - g_h, then moved apart by what is left of the negative part of the gap, pointwise, in constant shares
 ///                   (of the mean tensions where they vary); over an obstacle up to psi itself.
 ///
@@ -43,6 +44,7 @@ class FeasiblePair {
     View<double*> at_nodes;  ///< |||s_N - s_c|||_K: what further Newton steps take away
     View<double*> rest;      ///< a bound on what remains: |||s - s_N|||_K + |||s_c - u_h|||_K
     View<double*> contact;   ///< (lambda, s_1 - s_2)_K
+    bool at_points = false;  ///< whether in some cell of this rank a pointwise move or the contact term is what a quadrature makes of it
   };
   /// u: coefficients of each membrane; those of a conforming space take Space::lift of the data on the held boundary (Bernstein: brought in
   /// order, docs/methods/membranes.md, 5). Over an obstacle only u[0] is read. `lambda`: the non-negative multiplier, densities of degree
@@ -94,6 +96,10 @@ class FeasiblePair {
   /// Collective.
   Bulge bulge(const FeasiblePair& before, const FeasiblePair& after) const;
 
+  /// Whether psi is its interpolant at all quadrature points, up to round-off.
+  bool obstacle_is_interpolated() const;
+  /// By patch cell, whether the obstacle jumps inside it; of length 0: nowhere on this rank.
+  View<const bool*> jumps() const;
   /// |||lift of g - g_h||| over all cells.
   double boundary_energy() const;
   std::size_t bytes() const;  ///< held for the mesh

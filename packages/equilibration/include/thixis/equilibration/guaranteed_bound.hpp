@@ -1,6 +1,8 @@
 #pragma once
 #include <array>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "thixis/complementarity/estimate.hpp"
 #include "thixis/equilibration/cell_fields.hpp"
@@ -28,7 +30,7 @@ struct Iterate {
   const algebra::Vector* residual[2] = {nullptr, nullptr};  ///< F - (-1)^alpha D lambda - S u_alpha, on map()
 };
 
-/// The guaranteed bound on the energy error of an iterate and its parts (docs/methods/estimates.md): with fluxes sigma_alpha in equilibrium
+/// The bound on the energy error of an iterate and its parts (docs/methods/estimates.md): with fluxes sigma_alpha in equilibrium
 /// with f_alpha and a multiplier lambda^ >= 0, and a feasible pair s,
 ///
 ///     |||u - u_h|||² <= sum_K sum_alpha (|mu^{1/2} grad u_h + mu^{-1/2} sigma_alpha|_K + eta_osc)² + |||s - u_h|||² + 2 (lambda^, s_1 -
@@ -49,6 +51,9 @@ class GuaranteedBound {
     View<double*> discretization, linearization, algebraic;
   };
   const CellParts& cells() const;
+
+  /// What keeps the last bound from being guaranteed, a clause each.
+  std::vector<std::string> doubts() const;
 
   /// The fluxes of the last iterate, for tests: all three parts of membrane alpha, and what they are in equilibrium with.
   struct Fluxes {

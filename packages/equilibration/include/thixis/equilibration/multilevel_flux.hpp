@@ -23,8 +23,8 @@ class MultilevelFlux {
   MultilevelFlux& operator=(const MultilevelFlux&) = delete;
 
   /// div sigma = r on the owned cells: r (cell, at least dim P_q) and sigma (cell, 2 dim P_{q+1}) in modal coefficients; r as density.
-  /// Overwrites sigma. Collective.
-  void operator()(const ConstCellTable& r, const CellTable& sigma) const;
+  /// Overwrites sigma. Collective. On pieces of the mesh that nothing holds r loses its mean: returns |r - div sigma|, else 0.
+  double operator()(const ConstCellTable& r, const CellTable& sigma) const;
 
   std::size_t bytes() const;  ///< held for the mesh
 

@@ -24,7 +24,8 @@ class StepBound {
  public:
   /// The space and the hierarchy must outlive it. `friedrichs`: C in |v| <= C |grad v| for v that vanish where the membranes are held; not
   /// given: that of the box around the mesh, where the whole boundary is held, else none, and what the step does not balance enters by its
-  /// norm in L1(L2). Collective; throws InputError for methods without such a bound and for tractions or tensions that depend on time.
+  /// norm in L1(L2), as does always what no flux takes away from a piece that nothing holds. Collective; throws InputError for methods
+  /// without such a bound and for tractions or tensions that depend on time.
   StepBound(const method::PolynomialSpace& space, const ContactProblem& problem, const mesh::Hierarchy& hierarchy, int level,
             std::optional<double> friedrichs = {});
   ~StepBound();
@@ -40,6 +41,8 @@ class StepBound {
   /// eta_n and its parts at an iterate at the end of the step. Its residual is that of the step, F(t_n) - (u - u_before)/tau - (-1)^alpha D
   /// lambda - S u_alpha. Collective.
   complementarity::Estimate operator()(const Iterate& iterate);
+  /// Whether the change of the forces in the step begun is as smooth as its integral needs (ForceChange).
+  bool resolved() const;
   /// Of the last iterate, on the owned cells.
   const GuaranteedBound::CellParts& cells() const;
   /// Of the last iterate, with exact solvers: what comes from replacing the solution in the step by its value at the end, and the rest.

@@ -1,4 +1,6 @@
 #pragma once
+#include <cmath>
+
 #include "thixis/mesh/mesh.hpp"
 
 namespace thixis::mesh {
@@ -14,5 +16,15 @@ struct Statistics {
 
 /// Collective.
 Statistics statistics(const Mesh& mesh);
+
+/// The smallest axis-parallel box around a mesh, over all ranks.
+struct Box {
+  double lower[2], upper[2];
+  double side(int d) const { return upper[d] - lower[d]; }
+  double diagonal() const { return std::hypot(side(0), side(1)); }
+};
+
+/// Collective.
+Box bounding_box(const Mesh& mesh);
 
 }  // namespace thixis::mesh

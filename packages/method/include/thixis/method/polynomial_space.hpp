@@ -23,6 +23,12 @@ struct Structure {
   int interior = 0;                     ///< of each element, for condensation: its first unknowns
 };
 
+/// Moments of a source against functions that are held, where no equation gives them: factor · moments(patch cell, l). Of length 0: none.
+struct HeldSource {
+  Kokkos::View<const double**, Kokkos::LayoutRight> moments;
+  double factor = 1;
+};
+
 /// What methods share: functions that are polynomials of degree p in every cell. A method adds its numbering, its forms and what it does on
 /// the boundary.
 class PolynomialSpace : public Space {
@@ -57,6 +63,7 @@ class PolynomialSpace : public Space {
   void restrict_to_unknowns(const Coefficients& u, algebra::Vector& values) const final;
   /// The cells' part; entries of faces are left 0.
   void interpolate(const scene::Field& u, double t, algebra::Vector& values) const override;
+  void interpolate_obstacle(const scene::Field& psi, algebra::Vector& values) const final;
   void prolongate(const Space& coarse, const Coefficients& coarse_u, algebra::Vector& values) const override;
 
   /// By the mass matrix of each cell: for functions without continuity.
@@ -89,10 +96,10 @@ class PolynomialSpace : public Space {
   ///
   ///     (div sigma, v)_K = (f - (-1)^alpha lambda_h - r, v)_K      for all v in P_q(K),
   ///
-  /// whatever u is; r and lambda_h have no moments against functions that are held. sigma·n = -Π_q t on the Neumann boundary. `force` and
-  /// `boundary`: the data that u_h belongs to. For spaces that are not conforming. Collective.
+  /// whatever u is; r has no moments against functions that are held, lambda_h those of `at_held`. sigma·n = -Π_q t on the Neumann
+  /// boundary. `force` and `boundary`: the data that u_h belongs to. For spaces that are not conforming. Collective.
   virtual void native_flux(const scene::Field& tension, const scene::Field& force, const Coefficients& u, const BoundaryValues& boundary,
-                           double t, const View<double**>& sigma) const;
+                           double t, const HeldSource& at_held, const View<double**>& sigma) const;
 
   output::Grid display() const final;
   std::vector<double> shown(const Coefficients& u) const final;

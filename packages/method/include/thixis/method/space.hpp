@@ -130,6 +130,8 @@ class Space {
   virtual void restrict_to_unknowns(const Coefficients& u, algebra::Vector& values) const = 0;
   /// The interpolant of a function: nodal in the cells, projected on faces.
   virtual void interpolate(const scene::Field& u, double t, algebra::Vector& values) const = 0;
+  /// The coefficients of an obstacle: of its interpolant, and where it jumps inside a cell of what thixis/method/jumps.hpp makes of that.
+  virtual void interpolate_obstacle(const scene::Field& psi, algebra::Vector& values) const = 0;
   /// Evaluates a function of the next coarser space of the hierarchy in this one. Collective.
   virtual void prolongate(const Space& coarse, const Coefficients& coarse_u, algebra::Vector& values) const = 0;
 

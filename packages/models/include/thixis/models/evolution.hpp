@@ -32,8 +32,9 @@ struct Balance {
 
 /// The two parts of the discretization error of a step that step control compares.
 struct StepErrors {
-  double time = 0;   ///< from replacing the solution in ]t_{n-1}, t_n] by its value at t_n
-  double space = 0;  ///< the rest
+  double time = 0;        ///< from replacing the solution in ]t_{n-1}, t_n] by its value at t_n
+  double space = 0;       ///< the rest
+  double negligible = 0;  ///< an error in the step below it counts for nothing, however small the other part is
 };
 
 /// What a scene must bring to the next step beside X.
@@ -47,7 +48,8 @@ struct EvolutionState {
 ///     X = initial();
 ///     for each step:  begin(step, X_before);  solve problem() with any number of looks at estimate(X);  accept(X)
 ///
-/// A step that fails is begun again, shorter, from the same X_before: nothing of it is kept.
+/// A step that fails is begun again, shorter, from the same X_before: nothing of it is kept. Before anything else is asked of X_before,
+/// `give_up` returns to it.
 class Evolution {
  public:
   virtual ~Evolution() = default;
@@ -60,6 +62,8 @@ class Evolution {
   virtual Teuchos::RCP<algebra::Vector> initial() = 0;
   /// Times at which data jump, in the unit of the deck: steps end there.
   virtual std::vector<double> jumps() const { return {}; }
+  /// Throws InputError where data of one of these times leave no solution, as far as that shows without solving. Cheap.
+  virtual void check(const std::vector<double>&) const {}
   /// Sets up problem() for a step. What does not depend on the length of the step or on the data at its end is kept.
   virtual void begin(const TimeStep& step, const algebra::Vector& before) = 0;
   /// Of the step begun.
@@ -75,19 +79,35 @@ class Evolution {
   virtual CellEstimates cell_estimates() const = 0;                     ///< of the last call of `estimate`
   virtual std::optional<StepErrors> step_errors() const { return {}; }  ///< likewise; nothing where they are not known apart
 
+  /// Why X, which solves the step for the nonlinear solver, may not end it, in a sentence that says what to try; empty: it may.
+  /// `tolerance`: of the verifier; `conditions`: whether balances and contact conditions count, which the rule adaptive leaves open.
+  virtual std::string objection(const algebra::Vector&, double /*tolerance*/, bool /*conditions*/) { return {}; }
+  /// What the log should say of the step that was estimated, in a sentence; empty: nothing.
+  virtual std::string remark() const { return {}; }
+
+  /// The step begun is given up, also where `begin` has thrown: the data are those of X_before again.
+  virtual void give_up() {}
+
   /// The step ends with X. If `estimate` was called since begin(), its last call was at X, and the bound so far takes it in.
   virtual void accept(const algebra::Vector& X) = 0;
 
   // Over ]0, t_n], the steps accepted.
-  virtual std::optional<double> energy_error() const { return {}; }                        ///< if the exact solution is known
+  virtual std::optional<double> energy_error() const { return {}; }  ///< if the exact solution is known
+  /// Of the step begun alone, if it ended with X: what `estimate` bounds.
+  virtual std::optional<double> step_energy_error(const algebra::Vector&) const { return {}; }
   virtual std::optional<complementarity::Estimate> estimate_so_far() const { return {}; }  ///< where every step was estimated
+  /// What keeps it from being guaranteed, a clause each.
+  virtual std::vector<std::string> doubts() const { return {}; }
   /// What estimate_so_far() is, in words before a number.
-  virtual std::string bound_name() const { return "energy error guaranteed to be at most"; }
+  virtual std::string bound_name() const { return "energy error at most"; }
   virtual std::vector<Balance> balances() const { return {}; }
 
   // Of X at the end of a step, or of X^0.
   virtual complementarity::KktData kkt_data(const algebra::Vector& X) const = 0;
   virtual std::optional<double> front(const algebra::Vector&) const { return {}; }
+  virtual std::optional<Contact> contact(const algebra::Vector&) const { return {}; }
+  /// The fields of Model::point_fields at points, [probe][field], on all ranks. Collective.
+  virtual std::vector<double> values_at(const std::vector<Probe>&, const algebra::Vector&) const { return {}; }
   /// Columns of series.csv behind the time, and their values.
   virtual std::vector<std::string> series_names() const { return {}; }
   virtual std::vector<double> series(const algebra::Vector&) const { return {}; }
@@ -109,10 +129,12 @@ class Evolution {
 /// A scene in time before it meets a mesh.
 class UnsteadyModel : public Model {
  public:
+  /// Evolution::check as far as it needs no mesh, for `thixis check`.
+  virtual void check(const mesh::MeshParams&, const std::vector<double>&) const {}
   /// On the mesh of the deck (`folder`: that of the deck). Throws InputError for what only a mesh shows, as StationaryModel::check does,
   /// before anything is computed or written. Collective.
   virtual std::unique_ptr<Evolution> evolve(const mesh::MeshParams& mesh, const core::Comm& comm, const std::string& folder,
-                                            const std::vector<std::string>& field_names) const = 0;
+                                            const Wanted& wanted) const = 0;
 };
 
 }  // namespace thixis::models

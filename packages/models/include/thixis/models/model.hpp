@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -32,6 +33,26 @@ struct PublishedEstimate {
   std::vector<std::pair<std::string, double>> terms;
 };
 
+/// What contact does on the whole, over the points that are not held: sum_l (psi_l, 1) over those in contact, s_l lambda_l > K_l, and
+/// sum_l <lambda_h, psi_l>, the integral of the contact force. Where membranes are held in contact the strip of the first cells, h/2 for
+/// degree 1, counts as held.
+struct Contact {
+  double area = 0, force = 0;
+};
+
+/// A point that a run looks at.
+struct Probe {
+  std::string path;  ///< the entry of the deck that names it
+  std::array<double, 2> at;
+};
+
+/// What a run is to show of its solution.
+struct Wanted {
+  std::vector<std::string> fields;  ///< of fields.h5, by name
+  std::vector<Probe> expected;      ///< points at which values are judged at the end
+  std::vector<Probe> probes;        ///< points that are followed
+};
+
 /// A scene on one mesh.
 class Discretization {
  public:
@@ -56,6 +77,8 @@ class Discretization {
   /// The bound on the error at any X, an iterate or the solution. What it needs of the mesh is set up at the first call; a run that never
   /// asks pays nothing. Collective; throws InputError where the scene has no bound.
   virtual complementarity::Estimate estimate(const algebra::Vector& X) = 0;
+  /// What keeps `estimate` from being guaranteed, a clause each, after its first call.
+  virtual std::vector<std::string> doubts() const { return {}; }
   /// Of the last call of `estimate`.
   virtual CellEstimates cell_estimates() const = 0;
   /// What is held for them on this rank; 0 before the first.
@@ -65,6 +88,9 @@ class Discretization {
   virtual std::optional<PublishedEstimate> published_estimate(const algebra::Vector& X, std::optional<double> friedrichs) = 0;
   /// Everything the verifier needs, recomputed from X cell by cell.
   virtual complementarity::KktData kkt_data(const algebra::Vector& X) const = 0;
+  virtual Contact contact(const algebra::Vector& X) const = 0;
+  /// The fields of Model::point_fields at points, [probe][field], on all ranks. Collective.
+  virtual std::vector<double> values_at(const std::vector<Probe>& probes, const algebra::Vector& X) const = 0;
   /// What fields are shown on.
   virtual output::Grid grid() const = 0;
   /// The fields that the model can show, on the points of grid(), by name; `names` empty: all.
@@ -77,15 +103,16 @@ class Model {
  public:
   virtual ~Model() = default;
   virtual std::string name() const = 0;
-  virtual std::string case_name() const = 0;  ///< empty for data of the user
+  virtual std::string case_name() const = 0;                  ///< empty for data of the user
+  virtual std::vector<std::string> point_fields() const = 0;  ///< the names of the fields whose values at points are known
 };
 
 class StationaryModel : public Model {
  public:
   /// Throws InputError for what only a mesh shows: unknown boundary tags, boundary data that contradict each other, tensions that are not
-  /// positive and data that are not finite somewhere, unknown field names.
+  /// positive and data that are not finite somewhere, unknown field names, points outside of the mesh.
   /// Collective; to be asked before anything is computed or written.
-  virtual void check(const mesh::Mesh& mesh, const std::vector<std::string>& field_names) const = 0;
+  virtual void check(const mesh::Mesh& mesh, const Wanted& wanted) const = 0;
   /// On a level of the hierarchy, which must outlive the result. Collective.
   virtual std::unique_ptr<Discretization> discretize(const mesh::Hierarchy& hierarchy, int level) const = 0;
 };

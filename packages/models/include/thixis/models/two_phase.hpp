@@ -12,13 +12,14 @@ namespace thixis::models {
 struct TwoPhaseBoundParams {
   complementarity::Measure measure = complementarity::Measure::residual;
   double time_scale = 2500 * 31557600.;  ///< alpha [s]
+  /// The rule of the solver leaves errors of linearization that count as small beside others: they are not owed to the next step.
+  bool adaptive = false;
 };
 
 /// Two-phase flow of water and hydrogen by cell-centred finite volumes and backward Euler (docs/methods/two_phase.md).
 ///
-/// `seconds_per_unit`: of the unit of time of the deck. `probes`: points of series.csv, x and y of each (intervals: x); empty: the cell
-/// at the left end, the lowest one there.
+/// `seconds_per_unit`: of the unit of time of the deck. Without probes series.csv shows the cell at the left end, the lowest one there.
 std::unique_ptr<UnsteadyModel> two_phase(scene::TwoPhaseScene scene, algebra::LinearParams linear, double seconds_per_unit,
-                                         std::vector<double> probes, const TwoPhaseBoundParams& bound = {});
+                                         const TwoPhaseBoundParams& bound = {});
 
 }  // namespace thixis::models

@@ -11,10 +11,13 @@
 
 namespace thixis::output {
 
-/// A bound on the energy error and its parts.
+/// An estimate of the energy error and its parts.
 struct SummaryEstimate {
   double total = 0, discretization = 0, linearization = 0, algebraic = 0;
+  std::string promise;                                ///< what it promises, in words
+  std::vector<std::string> doubts;                    ///< what keeps it from being guaranteed; none: no such key
   std::vector<std::pair<std::string, double>> terms;  ///< further keys: every term of the bound by its name
+  std::optional<double> time = std::nullopt;  ///< key `time` of scenes in time: how much of discretization shorter steps would take away
 };
 
 /// What a run in time adds.

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -17,6 +18,13 @@ struct Points {
   const double* y = nullptr;
 };
 
+/// What is known of a function that is a polynomial in every cell of the mesh, or on either side of the interface in a cell that it cuts.
+struct Degree {
+  int space = 0;      ///< at most, in x and y together
+  int time = 0;       ///< at most, in t
+  bool whole = true;  ///< the same polynomial everywhere
+};
+
 /// A scalar function of place and time, asked for at many points at once. Not to be evaluated by several threads at a time.
 class Field {
  public:
@@ -28,6 +36,8 @@ class Field {
   virtual const double* constant() const { return nullptr; }
   /// Whether it is known not to depend on time: what is made of it may be kept.
   virtual bool steady() const { return constant() != nullptr; }
+  /// Nothing where it is not known to be a polynomial.
+  virtual std::optional<Degree> degree() const { return {}; }
 };
 using FieldPtr = std::shared_ptr<const Field>;
 
@@ -35,12 +45,14 @@ FieldPtr constant(double value);
 
 /// An expression of x, y, t, r (distance to `centre`), pi and named constants (core::Expression, `cond ? a : b` allowed).
 /// `name` is used in messages, e.g. "scene/data/f1". Throws InputError "<name>: ..." for text that is no such expression.
+/// Its degree is what the text proves where that is one polynomial. Of others, pieces put together by conditions, abs, min, max included,
+/// it is what the user names: a polynomial of degree `named` at most in every cell.
 FieldPtr expression(const std::string& name, const std::string& text, const std::vector<double>& centre,
-                    const std::map<std::string, double>& constants);
+                    const std::map<std::string, double>& constants, std::optional<int> named = {});
 
-/// f(x, y) or f(x, y, t) compiled in: the catalogue's functions. `name` is used in messages.
+/// f(x, y) or f(x, y, t) compiled in: the catalogue's functions. `name` is used in messages; `degree`: if f is a polynomial.
 template <class F>
-FieldPtr formula(F f, std::string name = "a function of the scene");
+FieldPtr formula(F f, std::string name = "a function of the scene", std::optional<Degree> degree = {});
 
 /// Gradient of a function by sixth-order central differences of step `step`: for exact solutions given without their derivatives.
 ///
@@ -48,7 +60,10 @@ FieldPtr formula(F f, std::string name = "a function of the scene");
 /// derivative jumps by J it is up to J step. u is asked for within 3 steps of the points, beyond the domain as well.
 std::array<FieldPtr, 2> difference_gradient(FieldPtr u, double step);
 
-/// Throws InputError if one of the values at these points is not finite.
+/// Largest absolute value of a datum. Energies are products of up to four data and their reciprocals, and double precision ends at 1e308.
+constexpr double largest_value = 1e60;
+
+/// Throws InputError if one of the values at these points is not finite, or larger than `largest_value`.
 void require_finite(const std::string& name, const Points& points, double t, const double* values);
 
 // ---------------------------------------------------------------------------------------------------------------------------------
@@ -57,7 +72,7 @@ namespace detail {
 template <class F>
 class Formula final : public Field {
  public:
-  Formula(F f, std::string name) : f_(std::move(f)), name_(std::move(name)) {}
+  Formula(F f, std::string name, std::optional<Degree> degree) : f_(std::move(f)), name_(std::move(name)), degree_(degree) {}
   void evaluate(const Points& points, double t, double* values) const override {
     for (std::size_t i = 0; i < points.count; ++i) {
       if constexpr (std::is_invocable_v<const F&, double, double, double>) values[i] = f_(points.x[i], points.y[i], t);
@@ -66,16 +81,18 @@ class Formula final : public Field {
     require_finite(name_, points, t, values);
   }
   bool steady() const override { return !std::is_invocable_v<const F&, double, double, double>; }
+  std::optional<Degree> degree() const override { return degree_; }
 
  private:
   F f_;
   std::string name_;
+  std::optional<Degree> degree_;
 };
 }  // namespace detail
 
 template <class F>
-FieldPtr formula(F f, std::string name) {
-  return std::make_shared<detail::Formula<F>>(std::move(f), std::move(name));
+FieldPtr formula(F f, std::string name, std::optional<Degree> degree) {
+  return std::make_shared<detail::Formula<F>>(std::move(f), std::move(name), degree);
 }
 
 }  // namespace thixis::scene

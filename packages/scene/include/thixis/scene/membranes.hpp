@@ -37,6 +37,7 @@ struct DataParams {
   core::Formula u, u1, u2, lambda;                 ///< the exact solution, if known
   core::Formula u_x, u_y, u1_x, u1_y, u2_x, u2_y;  ///< its gradient; not given: differences
   std::optional<InitialParams> initial;            ///< in time; not given: the exact solution at t = 0
+  std::optional<int> degree;                       ///< of all data, in every cell, if they are polynomials there
   std::vector<double> centre = {0, 0};             ///< r is the distance to it
   std::map<std::string, double> constants;
   static const core::Schema<DataParams>& schema();
@@ -73,7 +74,7 @@ struct BoundaryCondition {
 /// The exact solution, index alpha of a membrane first. Across the interface only the second derivatives and lambda may jump.
 struct ExactMembranes {
   FieldPtr u[2];
-  std::array<FieldPtr, 2> gradient[2];  ///< gradient[alpha][direction]
+  std::array<FieldPtr, 2> gradient[2];  ///< gradient[alpha][direction]; null: not given, to be had by differences of u
   FieldPtr multiplier;                  ///< lambda; may be null
 };
 

@@ -1,0 +1,39 @@
+#include "unchanged.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "thixis/core/deck.hpp"
+#include "thixis/core/differences.hpp"
+
+namespace thixis::drive {
+namespace {
+
+bool begins_with(const std::string& path, const std::string& beginning) { return path.rfind(beginning, 0) == 0; }
+
+/// What the unknowns of the checkpoint are values of. Finer meshes may follow, on other numbers of ranks, and the file may have moved.
+bool fixed(const std::string& path) {
+  const std::array<const char*, 3> free = {"mesh/refinements", "mesh/cells per rank", "mesh/file"};
+  if (std::find(free.begin(), free.end(), path) != free.end()) return false;
+  return path == "scene/model" || path == "scene/case" || path == "time/unit" || begins_with(path, "mesh/") || begins_with(path, "method/");
+}
+
+}  // namespace
+
+void check_unchanged(const output::StoredCheckpoint& stored, const RunParams& params) {
+  const auto before = core::Deck::from_text(stored.deck(), stored.path()).parse(RunParams::schema());
+  std::vector<std::string> mistakes;
+  for (const auto& difference : core::differences(RunParams::schema(), before, params)) {
+    const std::string& path = difference.path;
+    if (fixed(path))
+      mistakes.push_back(
+          fmt::format("{}: the checkpoint '{}' belongs to another model, mesh or method; leave this as it was.", path, stored.path()));
+    if (begins_with(path, "newton/initial/"))
+      mistakes.push_back(fmt::format("{}: a restart begins with the state of the checkpoint; leave this as it was.", path));
+  }
+  if (!mistakes.empty()) throw core::InputError(fmt::format("{}", fmt::join(mistakes, "\n")));
+}
+
+}  // namespace thixis::drive

@@ -1,0 +1,89 @@
+#include "exactness.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "lift_tables.hpp"
+#include "thixis/reference/quadrature.hpp"
+
+namespace thixis::equilibration {
+namespace {
+
+using scene::Degree;
+
+/// Collects the clauses.
+class Examination {
+ public:
+  Examination(const method::PolynomialSpace& space, int q, bool cut, bool lift)
+      : order_(cut ? std::min(space.quadrature().order, reference::max_quadrature_order - 1) : space.quadrature().order),
+        p_(space.basis().degree()),
+        q_(q),
+        cut_(cut),
+        lift_(lift) {}
+
+  /// Sources: moments against P_{q+1}, the square of what is left. Loads and tractions alike.
+  void source(const std::string& name, const scene::Field& f) {
+    if (const auto d = known(name, f)) needs_order(name, d->space, std::max(2 * d->space, d->space + q_ + 1));
+  }
+  /// The flux term |mu grad u + sigma|² times a polynomial that bounds 1/mu; the lift's own rule serves degree 2.
+  void tension(const std::string& name, const scene::Field& mu, bool proved) {
+    if (mu.constant()) return;
+    const auto d = known(name, mu);
+    if (!d) return;
+    if (!proved) return add(name + " varies too much within some cell");
+    needs_order(name, d->space, 2 * std::max(d->space + p_ - 1, q_ + 1) + d->space);
+    if (lift_ && d->space > 2) add(fmt::format("{} has degree {} where boundary data are lifted, more than 2", name, d->space));
+  }
+  /// The lift is the data where s (1 - s) q resolves them, q of degree `resolution`.
+  void dirichlet(const std::string& name, const scene::Field& g) {
+    constexpr int most = LiftInCell::resolution + 2;
+    const auto d = known(name, g);
+    if (d && d->space > most) add(fmt::format("{} has degree {} along faces, more than {}", name, d->space, most));
+  }
+  void obstacle(const scene::Field& psi, bool interpolated) {
+    const auto d = known("the obstacle", psi);
+    if (d && d->space > p_) add(fmt::format("the obstacle has degree {}, more than that of the method", d->space));
+    else if (d && !interpolated) add("the obstacle jumps");
+  }
+  std::vector<std::string> clauses() const { return clauses_; }
+
+ private:
+  void add(const std::string& clause) {
+    if (std::find(clauses_.begin(), clauses_.end(), clause) == clauses_.end()) clauses_.push_back(clause);
+  }
+  std::optional<Degree> known(const std::string& name, const scene::Field& field) {
+    const auto degree = field.degree();
+    if (!degree) add(name + " is not known to be a polynomial in every cell");
+    else if (!degree->whole && cut_) add(name + " may jump inside of cells, which the interface cuts");
+    else return degree;
+    return {};
+  }
+  void needs_order(const std::string& name, int degree, int order) {
+    if (order > order_) add(fmt::format("{} has degree {}, which takes method/quadrature order = {}", name, degree, order));
+  }
+
+  int order_, p_, q_;
+  bool cut_, lift_;
+  std::vector<std::string> clauses_;
+};
+
+}  // namespace
+
+std::vector<std::string> doubts(const method::PolynomialSpace& space, const ContactProblem& problem, int q, const bool (&proved)[2],
+                                const FeasiblePair& pair) {
+  Examination examine(space, q, space.mesh().comm.any(space.quadrature().cut_cells() > 0), pair.boundary_energy() > 0);
+  for (int alpha = 0; alpha < problem.count; ++alpha) {
+    const auto name = [&](const std::string& what) { return problem.count == 1 ? "the " + what : fmt::format("{} {}", what, alpha + 1); };
+    examine.source(name("force"), *problem.force[alpha]);
+    examine.tension(name("tension"), *problem.tension[alpha], proved[alpha]);
+    for (const auto& g : problem.boundary[alpha].dirichlet)
+      if (g) examine.dirichlet(name("height on the boundary"), *g);
+    for (const auto& t : problem.boundary[alpha].neumann)
+      if (t) examine.source(name("traction"), *t);
+  }
+  if (problem.obstacle) examine.obstacle(*problem.obstacle, pair.obstacle_is_interpolated());
+  return examine.clauses();
+}
+
+}  // namespace thixis::equilibration
