@@ -7,9 +7,10 @@
 namespace thixis::drive {
 namespace {
 
-constexpr double wanted_ratio = 0.5;             ///< of the error in time to that in space
-constexpr double most_ratio = 4 * wanted_ratio;  ///< of a step that is not too long
-constexpr double round_off = 1e-9;               ///< of a step: times that are closer are the same
+constexpr double wanted_ratio = 0.5;                                       ///< of the error in time to that in space
+constexpr double most_ratio = 4 * wanted_ratio;                            ///< of a step that is not too long
+constexpr double resolution = 4 * std::numeric_limits<double>::epsilon();  ///< of numbers of steps
+constexpr double round_off = 1e-9;                                         ///< of a step: times that are closer are the same
 
 double ratio(const models::StepErrors& errors) { return errors.time > 0 ? errors.time / std::max(errors.space, errors.negligible) : 0; }
 
@@ -42,7 +43,7 @@ double StepControl::next_mark(double t) const {
   double mark = also == also_.end() ? params_.end : std::min(params_.end, *also);
   if (!params_.adaptive) {
     const double steps = t / params_.step;  // that long ago; a whole number up to round-off
-    const double multiple = (std::floor(steps + std::max(round_off, TimeParams::resolution * steps)) + 1) * params_.step;
+    const double multiple = (std::floor(steps + std::max(round_off, resolution * steps)) + 1) * params_.step;
     if (multiple < mark - slack) mark = multiple;
   }
   return mark;
@@ -50,7 +51,7 @@ double StepControl::next_mark(double t) const {
 
 double StepControl::end_of_step(double t) const {
   const double mark = next_mark(t), left = mark - t;
-  if (length_ >= left * (1 - round_off)) return mark;
+  if (length_ >= left * (1 - round_off) - TimeParams::resolution * params_.end) return mark;
   if (2 * length_ > left) return t + left / 2;  // two equal steps rather than a long and a tiny one
   return t + length_;
 }

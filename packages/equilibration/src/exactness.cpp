@@ -86,4 +86,34 @@ std::vector<std::string> doubts(const method::PolynomialSpace& space, const Cont
   return examine.clauses();
 }
 
+std::vector<std::string> doubts_in_time(const ContactProblem& problem, const FeasiblePair& before, const FeasiblePair& after) {
+  std::vector<std::string> clauses;
+  const auto examine = [&](const std::string& name, const scene::Field& field, int most) {
+    const auto degree = field.degree();
+    if (field.steady() || !degree) return;  // of the latter there is a doubt already
+    std::string clause;
+    if (!degree->whole) clause = name + " may jump in time";
+    else if (degree->time > most) clause = fmt::format("{} has degree {} in t, more than {}", name, degree->time, most);
+    if (!clause.empty() && std::find(clauses.begin(), clauses.end(), clause) == clauses.end()) clauses.push_back(clause);
+  };
+  for (int alpha = 0; alpha < problem.count; ++alpha) {
+    examine(fmt::format("force {}", alpha + 1), *problem.force[alpha], 2);
+    for (const auto& g : problem.boundary[alpha].dirichlet)
+      if (g) examine(fmt::format("height on the boundary {}", alpha + 1), *g, 1);
+  }
+  if (problem.interface && !problem.interface->steady()) clauses.emplace_back("the interface moves");
+  if (before.boundary_energy() > 0 || after.boundary_energy() > 0)
+    clauses.emplace_back("boundary data are no polynomials of the degree of the method");
+  return clauses;
+}
+
+std::vector<std::string> doubts_at_start(const method::PolynomialSpace& space, int alpha, const scene::Field& initial) {
+  const auto degree = initial.degree();
+  const std::string name = fmt::format("the initial height {}", alpha + 1);
+  if (!degree || !degree->whole) return {name + " is not known to be a polynomial"};
+  const int order = 2 * std::max(degree->space, space.basis().degree());
+  if (order <= space.quadrature().order) return {};
+  return {fmt::format("{} has degree {}, which takes method/quadrature order = {}", name, degree->space, order)};
+}
+
 }  // namespace thixis::equilibration

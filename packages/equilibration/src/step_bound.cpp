@@ -6,6 +6,7 @@
 
 #include "bound_parts.hpp"
 #include "change_of_force.hpp"
+#include "exactness.hpp"
 #include "tables.hpp"
 #include "thixis/algebra/tpetra.hpp"
 #include "thixis/core/error.hpp"
@@ -93,6 +94,7 @@ struct StepBound::Impl : BoundParts {
   Square all;
   double disc2 = 0, lin2 = 0, alg2 = 0, time2 = 0;
   complementarity::Promise promise = complementarity::Promise::guaranteed;  ///< the weakest of all steps
+  std::vector<std::string> at_start;                                        ///< what keeps the error at time 0 from being exact
 
   Impl(const method::PolynomialSpace& of, const ContactProblem& contact, const mesh::Hierarchy& hierarchy, int level,
        std::optional<double> constant)
@@ -124,6 +126,14 @@ struct StepBound::Impl : BoundParts {
   }
 
   double tau() const { return last - first; }
+
+  /// What keeps the bound of the step from being guaranteed.
+  std::vector<std::string> all_doubts() const {
+    std::vector<std::string> clauses = doubts;
+    for (auto& clause : doubts_in_time(problem, feasible_before ? *feasible_before : *feasible, *feasible))
+      clauses.push_back(std::move(clause));
+    return clauses;
+  }
 
   std::shared_ptr<const FeasiblePair> pair_at(double time) const {
     if (steady_boundary || feasible->time() == time) return feasible;
@@ -311,7 +321,7 @@ void StepBound::Impl::sum_up() {
   eta = {};
   eta.evident = space.conforming();  // the proof is for continuous elements
   eta.total = step.bound();
-  eta.promise = complementarity::Promise::up_to_quadrature;
+  eta.promise = all_doubts().empty() ? complementarity::Promise::guaranteed : complementarity::Promise::up_to_quadrature;
   parts_of_step = {
       std::sqrt(length * sum[of_disc]) + N + std::sqrt(length * sum[of_rest]) + std::sqrt(length * std::abs(together - sum[contact_nodes])),
       std::sqrt(length * sum[of_lin]) + std::sqrt(length * sum[of_nodes]) + std::sqrt(length * sum[contact_nodes]),
@@ -361,6 +371,11 @@ void StepBound::start(double time, const Coefficients (&u)[2], const std::array<
   double square = 0;
   for (int alpha = 0; alpha < in.problem.count; ++alpha)
     square += squared(distance[alpha] + (initial[alpha] ? std::sqrt(in.space.l2_error(u[alpha], *initial[alpha], time)) : 0));
+  in.at_start.clear();
+  for (int alpha = 0; alpha < in.problem.count; ++alpha)
+    if (initial[alpha])
+      for (auto& clause : doubts_at_start(in.space, alpha, *initial[alpha])) in.at_start.push_back(std::move(clause));
+  in.promise = in.at_start.empty() ? complementarity::Promise::guaranteed : complementarity::Promise::up_to_quadrature;
   in.all = {square, 0};
   in.disc2 = square;
   in.lin2 = in.alg2 = in.time2 = 0;
@@ -377,6 +392,8 @@ void StepBound::take_over(const StepBound& coarse, double time, const Coefficien
   in.lin2 = from.lin2;
   in.alg2 = from.alg2;
   in.time2 = from.time2;
+  in.promise = from.promise;
+  in.at_start = from.at_start;
 }
 
 void StepBound::begin(double begin, double end, const Coefficients (&before)[2]) {
@@ -445,6 +462,12 @@ complementarity::Estimate StepBound::operator()(const Iterate& iterate) {
 }
 
 bool StepBound::resolved() const { return impl_->resolved; }
+
+std::vector<std::string> StepBound::doubts() const {
+  std::vector<std::string> all = impl_->all_doubts();
+  all.insert(all.end(), impl_->at_start.begin(), impl_->at_start.end());
+  return all;
+}
 const GuaranteedBound::CellParts& StepBound::cells() const { return impl_->cells; }
 
 /// sum_up() has all of it but the flux at the end of the step.

@@ -335,6 +335,7 @@ void PolynomialSpace::interpolate(const scene::Field& u, double t, Vector& value
 }
 
 void PolynomialSpace::interpolate_obstacle(const scene::Field& psi, Vector& values) const {
+  interpolate(psi, 0, values);  // unknowns on faces, where there are some, stay as these are
   const Coefficients coefficients("thixis::method::obstacle", structure_.entries.size());
   mesh_.comm.together([&] {
     std::vector<LocalIndex> all(structure_.cell_entries);
@@ -347,7 +348,11 @@ void PolynomialSpace::interpolate_obstacle(const scene::Field& psi, Vector& valu
     std::copy(value.begin(), value.end(), host.data());
     Kokkos::deep_copy(coefficients, host);
   });
-  restrict_to_unknowns(coefficients, values);
+  Vector in_cells(values.getMap());
+  restrict_to_unknowns(coefficients, in_cells);
+  const auto from = algebra::host_view(in_cells);
+  const auto to = algebra::host_view(values);
+  for (LocalIndex l = 0; l < algebra::local_size(*points()); ++l) to(l) = from(l);
 }
 
 // -- from the coarser mesh ----------------------------------------------------------------------------------------------------------

@@ -152,6 +152,7 @@ class ParabolicEvolution final : public Evolution {
     return StepErrors{errors.time, errors.space, finest * std::sqrt(step_.length() * energy)};
   }
 
+  std::vector<std::string> doubts() const override { return bound_ ? bound_->doubts() : std::vector<std::string>(); }
   std::string remark() const override {
     if (!estimated_ || bound_->resolved()) return {};
     return fmt::format(

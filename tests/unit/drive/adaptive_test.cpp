@@ -117,7 +117,8 @@ TEST(Adaptive, a_target_behind_a_limit_is_missed_with_the_bound_that_was_reached
   char bound[32];
   std::snprintf(bound, sizeof bound, "%.4e", run.outcome.estimate->total);
   EXPECT_EQ(verdict.sentence, std::string("target missed: energy error at most ") + bound +
-                                  " (guaranteed), not 1e-06; refinement ended by adapt/max levels = 1.");
+                                  " (guaranteed), not 1e-06; refinement ended by adapt/max levels = 1; allow more of them, take a larger "
+                                  "adapt/theta or a higher method/degree, or begin with a finer mesh.");
 }
 
 TEST(Adaptive, the_verdict_says_what_the_bound_promises_and_judges_by_it_whatever_that_is) {

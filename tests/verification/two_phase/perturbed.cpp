@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "thixis/complementarity/newton.hpp"
+#include "thixis/scene/membranes.hpp"
 #include "two_phase_problem.hpp"
 #include "two_phase_verifier.hpp"
 
@@ -39,7 +40,7 @@ mesh::MeshParams column() {
 }
 
 /// Steps of the solver, and what the verifier finds at the end of the last one.
-class Run {
+class March {
  public:
   /// What becomes of a step before it is solved, of the state at its end, and of the scene that the verifier believes in.
   std::function<void(const fv::Grid&, FlowStep&)> meddle;
@@ -48,7 +49,7 @@ class Run {
   std::function<void(const fv::Grid&)> misbuild;  ///< the grid of the solver
   complementarity::CFunction c_function = complementarity::CFunction::min;
 
-  Run(const mesh::MeshParams& mesh, scene::TwoPhaseScene scene, double length, int steps)
+  March(const mesh::MeshParams& mesh, scene::TwoPhaseScene scene, double length, int steps)
       : mesh_(mesh), scene_(std::move(scene)), length_(length), steps_(steps) {}
 
   FlowFindings found() const {
@@ -98,7 +99,7 @@ class Run {
 };
 
 /// Gas on the left of a slab with gravity, water that has dissolved some of it, and water; the right side is held.
-Run slab_with_gas() { return {slab(), catalogued("gas injection 2d"), 1e4, 6}; }
+March slab_with_gas() { return {slab(), catalogued("gas injection 2d"), 1e4, 6}; }
 
 /// In the slab: gas at the foot of the injection, wet cells far from it.
 constexpr GlobalIndex with_gas = 0, wet = 30;
@@ -112,7 +113,7 @@ std::function<void(Vector&)> in_cell(GlobalIndex id, int u, const std::function<
   };
 }
 
-void expect_refused(const Run& run, const std::string& word = "balance") {
+void expect_refused(const March& run, const std::string& word = "balance") {
   const FlowFindings found = run.found();
   EXPECT_GT(found.worst(), tolerance);
   const std::string why = found.objection(tolerance, true);
@@ -120,13 +121,11 @@ void expect_refused(const Run& run, const std::string& word = "balance") {
 }
 
 TEST(Verifier, lets_steps_of_the_solver_pass) {
-  scene::TwoPhaseScene trapped = catalogued("gas injection 2d");
-  trapped.medium.S_gr = 0.02;
-  Run by_fischer_burmeister = slab_with_gas();
+  March by_fischer_burmeister = slab_with_gas();
   by_fischer_burmeister.c_function = complementarity::CFunction::fischer_burmeister;
   int number = 0;
-  for (const Run& run : {slab_with_gas(), by_fischer_burmeister, Run(slab(), trapped, 1e4, 6),
-                         Run(slab(), catalogued("gas injection 2d"), 1e-6, 3), Run(column(), catalogued("closed column"), 50, 12)}) {
+  for (const March& run : {slab_with_gas(), by_fischer_burmeister, March(slab(), catalogued("gas injection 2d"), 1e-6, 3),
+                           March(column(), catalogued("closed column"), 50, 12)}) {
     const FlowFindings found = run.found();
     EXPECT_LE(found.worst(), tolerance) << number;
     EXPECT_EQ(found.objection(tolerance, true), "") << number;
@@ -149,22 +148,22 @@ TEST(Verifier, sees_gas_where_the_tests_want_it) {
 }
 
 TEST(Verifier, refuses_a_saturation_that_is_off_in_one_cell) {
-  Run run = slab_with_gas();
+  March run = slab_with_gas();
   run.perturb = in_cell(with_gas, gas_saturation, [](double s_g) { return s_g + 1e-5; });
   expect_refused(run);
 }
 TEST(Verifier, refuses_a_pressure_that_is_off_in_one_cell) {
-  Run run = slab_with_gas();
+  March run = slab_with_gas();
   run.perturb = in_cell(wet, pressure, [](double P) { return P + 100; });
   expect_refused(run);
 }
 TEST(Verifier, refuses_a_molar_fraction_that_is_off_in_one_cell) {
-  Run run = slab_with_gas();
+  March run = slab_with_gas();
   run.perturb = in_cell(wet, dissolved, [](double chi) { return chi + 1e-9; });
   expect_refused(run);
 }
 TEST(Verifier, refuses_the_solution_of_a_solver_with_one_wrong_flux) {
-  Run run = slab_with_gas();
+  March run = slab_with_gas();
   run.misbuild = [](const fv::Grid& grid) {
     const fv::HostGrid host = fv::on_host(grid);
     for (LocalIndex F = 0; F < grid.faces; ++F)
@@ -175,7 +174,7 @@ TEST(Verifier, refuses_the_solution_of_a_solver_with_one_wrong_flux) {
   expect_refused(run);
 }
 TEST(Verifier, refuses_the_solution_of_a_solver_with_one_wrong_balance) {
-  Run run = slab_with_gas();
+  March run = slab_with_gas();
   run.meddle = [](const fv::Grid& grid, FlowStep& step) {
     const auto before = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), step.before);
     for (LocalIndex K = 0; K < grid.owned_cells; ++K)
@@ -185,29 +184,29 @@ TEST(Verifier, refuses_the_solution_of_a_solver_with_one_wrong_balance) {
   expect_refused(run);
 }
 TEST(Verifier, refuses_gravity_of_the_other_sign) {
-  Run run = slab_with_gas();
+  March run = slab_with_gas();
   run.believe = [](scene::TwoPhaseScene& scene) { scene.gravity[1] *= -1; };
   expect_refused(run);
 }
 TEST(Verifier, refuses_a_source_that_is_dropped) {
-  Run run = slab_with_gas();
+  March run = slab_with_gas();
   run.believe = [](scene::TwoPhaseScene& scene) {
     scene.hydrogen_source = scene::formula([](double x, double) { return x < 20 ? 1e-9 : 0.; });
   };
   expect_refused(run);
 }
 TEST(Verifier, refuses_what_enters_through_the_boundary_and_is_dropped) {
-  Run run = slab_with_gas();
+  March run = slab_with_gas();
   run.believe = [](scene::TwoPhaseScene& scene) { scene.boundary.erase("left"); };
   expect_refused(run);
 }
 TEST(Verifier, refuses_a_boundary_that_is_held_in_another_state) {
-  Run run = slab_with_gas();
+  March run = slab_with_gas();
   run.believe = [](scene::TwoPhaseScene& scene) { scene.boundary["right"].state.chi = scene::constant(1e-6); };
   expect_refused(run);
 }
 TEST(Verifier, refuses_states_that_are_swapped) {
-  Run run = slab_with_gas();
+  March run = slab_with_gas();
   run.perturb = [](Vector& X) {
     // cells of the lowest and the next row, one above the other: on any ranks, by way of sums
     std::vector<double> of_both(6, 0);
@@ -227,7 +226,7 @@ TEST(Verifier, refuses_states_that_are_swapped) {
   expect_refused(run);
 }
 TEST(Verifier, refuses_steps_that_are_not_as_long) {
-  Run run = slab_with_gas();
+  March run = slab_with_gas();
   run.meddle = [](const fv::Grid&, FlowStep& step) { step.length *= 1 + 1e-4; };
   expect_refused(run);
 }
@@ -235,7 +234,7 @@ TEST(Verifier, refuses_steps_that_are_not_as_long) {
 /// What belongs to a state alone, whatever the balances say.
 TEST(Verifier, names_what_no_solution_can_be) {
   const auto worst_of = [](int u, GlobalIndex id, double value, FlowFindings::Worst FlowFindings::*what) {
-    Run run = slab_with_gas();
+    March run = slab_with_gas();
     run.perturb = in_cell(id, u, [=](double) { return value; });
     const FlowFindings found = run.found();
     EXPECT_NE(found.objection(tolerance, true), "");

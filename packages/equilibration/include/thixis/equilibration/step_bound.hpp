@@ -43,6 +43,8 @@ class StepBound {
   complementarity::Estimate operator()(const Iterate& iterate);
   /// Whether the change of the forces in the step begun is as smooth as its integral needs (ForceChange).
   bool resolved() const;
+  /// What keeps the bound from being guaranteed, a clause each; behind a restart nothing of the error at time 0.
+  std::vector<std::string> doubts() const;
   /// Of the last iterate, on the owned cells.
   const GuaranteedBound::CellParts& cells() const;
   /// Of the last iterate, with exact solvers: what comes from replacing the solution in the step by its value at the end, and the rest.
