@@ -57,7 +57,7 @@ State System::residual(const algebra::Vector& X, algebra::Vector& R) {
   state.equations = norm(R);
   problem_.insert(C_, R);
   state.residual = std::hypot(state.equations, state.complementarity);
-  state.round_off = problem_.rounding(X);
+  state.round_off = problem_.noise(X);
   if (!(reference_ > 0)) reference_ = state.residual;
   return state;
 }

@@ -94,7 +94,7 @@ bool MembraneProblem::weights(Vector& w) const {
   return true;
 }
 
-double MembraneProblem::rounding(const Vector& X) const { return measure_.round_off(Fields(membranes_, X).u); }
+double MembraneProblem::noise(const Vector& X) const { return measure_.round_off(Fields(membranes_, X).u); }
 
 /// Beside what contact forces open at one point: the way of the membranes, since gaps to what is out of reach say nothing.
 double MembraneProblem::gap_size(const Vector& X, const Vector& K, const Vector& G, const Vector& s) const {

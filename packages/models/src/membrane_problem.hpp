@@ -25,7 +25,7 @@ class MembraneProblem final : public complementarity::Problem {
   algebra::LinearReport solve(const algebra::Vector& R, algebra::Vector& dX, const algebra::LinearStop& stop) override;
   bool weights(algebra::Vector& w) const override;
   double reference_norm() const override { return measure_.reference(); }
-  double rounding(const algebra::Vector& X) const override;
+  double noise(const algebra::Vector& X) const override;
   double gap_size(const algebra::Vector& X, const algebra::Vector& K, const algebra::Vector& G, const algebra::Vector& s) const override;
   void relax(algebra::Vector& X, int sweeps) const override;
 

@@ -60,7 +60,7 @@ struct NewtonReport {
 /// leaves the last iterate in X, converged or not.
 ///
 /// **It has converged** as soon as
-/// - |R(X^k)| <= eps_lin |(F, 0)| + absolute tolerance + Problem::rounding, for k = 0, 1, ... (where (F, 0) = 0: eps_lin |R(X^0)|), in the
+/// - |R(X^k)| <= eps_lin |(F, 0)| + absolute tolerance + Problem::noise, for k = 0, 1, ... (where (F, 0) = 0: eps_lin |R(X^0)|), in the
 ///   norm of the problem, which makes its rows comparable (Problem::weights); in full steps of Newton-min
 ///   only once what still changes in the contact set is within the residual of the linear solver, or after five such iterates, or
 /// - Newton-min, full step: the contact set at X^k is the one that step k was computed with, the linear solver met its tolerance, and

@@ -39,7 +39,7 @@ class Problem {
   /// |(F, 0)|: what residuals are compared with, the size of what acts.
   virtual double reference_norm() const = 0;
   /// What |R(X)| may be for no other reason than the rounding of its terms: nobody is asked for less.
-  virtual double rounding(const algebra::Vector&) const { return 0; }
+  virtual double noise(const algebra::Vector&) const { return 0; }
   /// The size of the gaps by which ties are told (see ActiveSet); the largest argument at any point by default. Collective.
   virtual double gap_size(const algebra::Vector& X, const algebra::Vector& K, const algebra::Vector& G, const algebra::Vector& s) const;
 
