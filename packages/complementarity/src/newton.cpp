@@ -186,6 +186,7 @@ class Run {
     report_.converged = ending == Ending::converged || ending == Ending::estimated;
     if (report_.residuals.empty()) report_.residuals.push_back(last_.residual);
     report_.why = sentence(ending);
+    if (!report_.converged) report_.advice = advice(ending);
     report_.linear_iterations = system_.linear_iterations();
     report_.residual_equations = last_.equations;
     report_.residual_complementarity = last_.complementarity;
@@ -197,7 +198,7 @@ class Run {
   }
 
   std::string sentence(Ending ending) const {
-    const double bound = system_.nonlinear_bound();
+    const double bound = system_.nonlinear_bound(last_);
     switch (ending) {
       case Ending::converged:
         if (last_.residual <= bound) return fmt::format("The residual {:.2e} is below {:.2e}.", last_.residual, bound);
@@ -217,6 +218,21 @@ class Run {
         return fmt::format("No convergence in {} step{} (newton/max iterations): the residual is {:.2e}, not below {:.2e}.", report_.steps,
                            report_.steps == 1 ? "" : "s", last_.residual, bound);
     }
+  }
+
+  /// What a user can do about it.
+  std::string advice(Ending ending) const {
+    if (ending == Ending::failed && system_.failed())
+      return "Try linear/solver = direct, another linear/preconditioner, more linear/max iterations, or a larger stopping/linear "
+             "tolerance.";
+    if (ending == Ending::failed) return "Try newton/c-function = min with newton/globalization = none, or newton/start = nested.";
+    if (ending == Ending::not_finite)
+      return report_.steps == 0 ? "Look at the data and at newton/initial."
+                                : "Try newton/globalization = hybrid, or newton/start = nested.";
+    std::string steps = "Try more newton/max iterations";
+    if (params_.globalization == Globalization::none) steps += ", newton/globalization = hybrid";
+    if (params_.start == Start::cold) steps += ", newton/start = nested";
+    return steps + ", or, where the linear systems are the reason, linear/solver = direct.";
   }
 
   const NewtonParams& params_;

@@ -20,7 +20,7 @@ NOX::StatusTest::StatusType Question::checkStatus(const NOX::Solver::Generic& so
 
 bool SmallResidual::ask(const State& now, const State& before, int k) {
   constexpr int patience = 5;
-  if (!(now.residual <= system_.nonlinear_bound())) {
+  if (!(now.residual <= system_.nonlinear_bound(now))) {
     in_a_row_ = 0;
     return false;
   }

@@ -169,7 +169,7 @@ class Run {
   /// Of the deck, or what the tolerance of the nonlinear solver allows.
   double kkt_tolerance(const complementarity::KktData& data) {
     const double residual = params_.stopping.nonlinear_tolerance * evolution_.problem().reference_norm() +
-                            params_.stopping.absolute_tolerance + evolution_.round_off();
+                            params_.stopping.absolute_tolerance + evolution_.round_off() + evolution_.problem().noise(*out_.X);
     return params_.stopping.kkt_tolerance.value_or(data.allowed(residual));
   }
 

@@ -58,18 +58,25 @@ void check_jumps(const scene::MembraneScene& scene, const Boundary& boundary, co
   const auto host = mesh::on_host(mesh);
   std::vector<std::vector<double>> values(tags * scene.count);
   std::vector<PointList> ends(tags);
-  double largest = 0;
+  double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
   mesh.comm.together([&] {
     for (std::size_t tag = 0; tag < tags; ++tag) {
       if (!boundary.dirichlet[tag]) continue;
       ends[tag] = points_on(mesh, host, tag, {0, 1});
       for (int alpha = 0; alpha < scene.count; ++alpha) {
         auto& found = values[tag * scene.count + alpha] = ends[tag].evaluate(*boundary.values[alpha].dirichlet[tag], t);
-        for (const double value : found) largest = std::max(largest, std::abs(value));
+        for (const double value : found) {
+          lowest = std::min(lowest, value);
+          highest = std::max(highest, value);
+        }
       }
     }
   });
-  const double allowed = 1e-8 * mesh.comm.max(largest) + 1e-12;
+  lowest = mesh.comm.min(lowest);
+  highest = mesh.comm.max(highest);
+  if (lowest > highest) return;
+  const double rounding = 1e-14 * std::max(std::abs(lowest), std::abs(highest));
+  const double allowed = 1e-8 * (highest - lowest) + rounding;
   struct First {
     std::size_t tag, end;  ///< tag = tags: none yet
   };

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "heights.hpp"
 #include "thixis/core/error.hpp"
 #include "thixis/method/values_at.hpp"
 
@@ -49,9 +50,9 @@ std::vector<double> values_of(const scene::Field& field, const std::vector<Probe
 
 }  // namespace
 
-MembraneLevel::MembraneLevel(const scene::MembraneScene& scene, const method::SpaceFactory& make_space, const method::MethodParams& method,
-                             const algebra::LinearParams& linear, const mesh::Mesh& mesh)
-    : scene_(scene), method_(method), boundary_(boundary_of(scene, mesh)) {
+MembraneLevel::MembraneLevel(const scene::MembraneScene& scene, double origin, const method::SpaceFactory& make_space,
+                             const method::MethodParams& method, const algebra::LinearParams& linear, const mesh::Mesh& mesh)
+    : scene_(scene), origin_(origin), method_(method), boundary_(boundary_of(scene, mesh)) {
   space_ = make_space(mesh, {boundary_.dirichlet, scene.interface_level_set, method});
   steady_interface_ = steady({scene.interface_level_set});
   for (int alpha = 0; alpha < scene.count; ++alpha) {
@@ -66,6 +67,31 @@ MembraneLevel::MembraneLevel(const scene::MembraneScene& scene, const method::Sp
   set_loads();
   problem_ = std::make_unique<MembraneProblem>(membrane_operator(scene, *space_, method, lift_, body_), linear, space_->coordinates());
   if (scene.count == 1) obstacle_ = space_->complete(*problem_->membranes().obstacle, lift_of_obstacle());
+  measure_from_rest();
+}
+
+void MembraneLevel::measure_from_rest() {
+  const Heights heights = heights_of(scene_, space_->mesh(), time_);
+  algebra::MultiVector u(space_->map(), scene_.count);
+  for (int alpha = 0; alpha < scene_.count; ++alpha) {
+    rest_[alpha] = heights.rest(alpha);
+    space_->interpolate(*scene::constant(rest_[alpha]), 0, *u.getVectorNonConst(alpha));
+  }
+  problem_->measure_from({&u, rest_, scene_.count == 1 ? reach(std::min(heights.low[0], rest_[0])) : 0});
+}
+
+void MembraneLevel::measure_from(const algebra::MultiVector& u) { problem_->measure_from({&u, rest_, 0}, body_); }
+
+/// How low forces could bring the membrane, roughly: the sum of all of them over its tension, a length, below where it is held.
+double MembraneLevel::reach(double low) const {
+  auto unheld = boundary_.values[0];
+  for (auto& value : unheld.dirichlet)
+    if (value) value = scene::constant(0);
+  Vector force(space_->map());
+  space_->load(*scene_.tension[0], *scene_.force[0], unheld, time_, force);
+  Vector softness(space_->map());
+  softness.reciprocal(problem_->measure().diagonal(0));
+  return low - 4 * force.norm1() * softness.normInf();
 }
 
 void MembraneLevel::set_lifts() {
@@ -120,6 +146,11 @@ std::vector<output::CheckpointBlock> MembraneLevel::save(const Vector& X, const 
   };
   for (int alpha = 0; alpha < scene_.count; ++alpha) add(displacement(scene_.count, alpha), *x.u.getVector(alpha));
   add("lambda", x.lambda);
+  if (origin_ != 0) {
+    const bool root = space_->mesh().comm.root();
+    blocks.push_back({"origin" + suffix, root ? std::vector<GlobalIndex>{0} : std::vector<GlobalIndex>{},
+                      root ? std::vector<double>{origin_} : std::vector<double>{}});
+  }
   return blocks;
 }
 
@@ -134,6 +165,12 @@ Teuchos::RCP<Vector> MembraneLevel::restore(const output::StoredCheckpoint& stor
   };
   for (int alpha = 0; alpha < scene_.count; ++alpha) fetch(displacement(scene_.count, alpha), *x.u.getVectorNonConst(alpha));
   fetch("lambda", x.lambda);
+  const double origin = stored.size("origin" + suffix) < 0 ? 0 : stored.fetch_finite("origin" + suffix, {0}).front();
+  if (origin != origin_) {
+    Vector by(space_->map());
+    space_->interpolate(*scene::constant(origin - origin_), 0, by);
+    for (int alpha = 0; alpha < scene_.count; ++alpha) x.u.getVectorNonConst(alpha)->update(1, by, 1);
+  }
   return joined(x);
 }
 
@@ -146,7 +183,11 @@ std::vector<output::FieldData> MembraneLevel::shown(const Vector& X, const compl
       shown.push_back({name, output::Centre::vertex, values()});
   };
   for (int alpha = 0; alpha < scene_.count; ++alpha)
-    add(displacement(scene_.count, alpha), [&] { return space_->shown(membrane(x, alpha)); });
+    add(displacement(scene_.count, alpha), [&] {
+      auto heights = space_->shown(membrane(x, alpha));
+      for (double& height : heights) height += origin_;
+      return heights;
+    });
   add("lambda", [&] { return space_->shown(space_->multiplier(x.lambda)); });
   add("gap", [&] {
     auto gap = space_->shown(membrane(x, 0));
@@ -181,6 +222,8 @@ std::vector<double> MembraneLevel::values_at(const std::vector<Probe>& probes, c
   columns.push_back(columns[0]);
   const auto below = scene_.count == 2 ? columns[1] : values_of(*scene_.obstacle, probes);
   for (std::size_t i = 0; i < probes.size(); ++i) columns.back()[i] -= below[i];
+  for (int alpha = 0; alpha < scene_.count; ++alpha)
+    for (double& height : columns[alpha]) height += origin_;
   std::vector<double> rows;
   for (std::size_t i = 0; i < probes.size(); ++i)
     for (const auto& column : columns) rows.push_back(column[i]);
