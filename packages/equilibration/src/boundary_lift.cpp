@@ -227,6 +227,7 @@ void BoundaryLift::find_faces(const ContinuousNodes& nodes, const std::array<sce
       double square = 0;
       for (int alpha = 0; alpha < count_; ++alpha) {
         boundary[alpha].dirichlet[tag]->evaluate({x.size(), x.data(), y.data()}, time_, g.data());
+        size = std::max(size, boundary[alpha].dirichlet[tag]->cancelled());
         LiftInCell& lift = cell.l[alpha];
         LiftInCell::Series& coefficient = lift.q[lift.faces];
         coefficient = {};

@@ -108,7 +108,7 @@ Deviation deviation_of_obstacle(const method::PolynomialSpace& space, const Boun
   std::vector<LocalIndex> in_layer(mesh.owned_cells, -1), positions;
   for (std::size_t k = 0; k < lift.cells().extent(0); ++k) in_layer[lift.cells()(k)] = static_cast<LocalIndex>(k);
 
-  double low[2] = {1e300, 1e300}, high[2] = {-1e300, -1e300}, size = 0;
+  double low[2] = {1e300, 1e300}, high[2] = {-1e300, -1e300}, size = obstacle->cancelled();
   for (LocalIndex v = 0; v < mesh.vertices; ++v)
     for (int d = 0; d < 2; ++d) {
       low[d] = std::min(low[d], host.coordinates(v, d));

@@ -99,7 +99,7 @@ class Search {
       for (std::size_t i = 0; i < lattice_.size(); ++i) meet(lattice_[i], of_lattice[i]);
       for (int q = block.offset(k); q < block.offset(k + 1); ++q)
         meet({1 - block.xi(q, 0) - block.xi(q, 1), block.xi(q, 0), block.xi(q, 1)}, at_rule(q));
-      if (way.difference() <= round_off * std::max(std::abs(range.low), std::abs(range.high))) continue;
+      if (way.difference() <= round_off * std::max({std::abs(range.low), std::abs(range.high), v_.cancelled()})) continue;
       first_.push_back(way.difference());
       ways_.push_back(way);
     }

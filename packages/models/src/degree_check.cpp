@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "thixis/core/error.hpp"
@@ -49,7 +50,7 @@ class Examination {
         for (int i = 0; i <= a; ++i)
           for (int j = 0; j <= n - a; ++j) {
             difference += in_a[i] * in_b[j] * f[at(i, j)];
-            size += std::abs(in_a[i] * in_b[j] * f[at(i, j)]);
+            size += std::abs(in_a[i] * in_b[j]) * std::max(std::abs(f[at(i, j)]), field->cancelled());
           }
         judge(name, n - 1, difference, size, "in the cell", x[at(0, 0)], y[at(0, 0)]);
       }
@@ -72,7 +73,7 @@ class Examination {
       double difference = 0, size = 0;
       for (std::size_t i = 0; i < f.size(); ++i) {
         difference += factor[i] * f[i];
-        size += std::abs(factor[i] * f[i]);
+        size += std::abs(factor[i]) * std::max(std::abs(f[i]), field->cancelled());
       }
       judge(name, n - 1, difference, size, "on the face", x[0], y[0]);
     }
