@@ -143,9 +143,9 @@ void System::solve(const algebra::Vector& X, const State& state, const algebra::
   }
   const algebra::LinearReport report = problem_.solve(R, dX, stop);
   linear_iterations_ += report.iterations;
-  solved_ = report.converged && !report.by_criterion;
+  solved_ = report.converged && !report.by_criterion && !report.shortened;
   left_ = std::max(stop.tolerance, report.residual);
-  if (looked_at_ != report.iterations) forget_estimate();
+  if (looked_at_ != report.iterations || report.shortened) forget_estimate();
   judge(report, stop.tolerance, residual, dX.norm2());
   if (const int sweeps = newton_.sweeps.value_or(0); sweeps > 0 && function_ == CFunction::min) {
     algebra::Vector relaxed(X, Teuchos::Copy);
@@ -158,7 +158,8 @@ void System::solve(const algebra::Vector& X, const State& state, const algebra::
 
 void System::judge(const algebra::LinearReport& report, double tolerance, double residual, double correction) {
   if (!std::isfinite(correction) || !std::isfinite(report.residual))
-    throw StepFailed{"the linear solver returned numbers that are not finite"};
+    throw StepFailed{report.reason.empty() ? "the linear solver returned numbers that are not finite"
+                                           : "the linear solver found nothing: " + report.reason};
   if (report.converged) {
     failures_ = 0;
     return;
