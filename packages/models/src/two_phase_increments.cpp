@@ -75,7 +75,7 @@ double largest(const Vector& X, Unknown u) {
 
 double largest_left(const algebra::Matrix& A, const Vector& r) {
   double most = 0;
-  Kokkos::parallel_reduce("thixis::models::largest_left", Cells(0, static_cast<LocalIndex>(A.getNodeNumRows())),
+  Kokkos::parallel_reduce("thixis::models::largest_left", Cells(0, algebra::local_rows(A)),
                           Left{A.getLocalMatrixDevice(), r.getLocalViewDevice(Tpetra::Access::ReadOnly)}, Kokkos::Max<double>(most));
   return algebra::comm_of(*A.getRowMap()).max(most);
 }
