@@ -234,6 +234,11 @@ TEST(Newton, reports_nan_of_the_linear_solver_and_keeps_the_start) {
   EXPECT_EQ(solved.report.steps, 0);
   EXPECT_EQ(solved.X.norm2(), 0);
   EXPECT_NE(solved.report.why.find("not finite"), std::string::npos) << solved.report.why;
+
+  problem.linear.reason = "the factorization has a zero pivot";
+  const Solved told(problem);
+  EXPECT_NE(told.report.why.find("the linear solver found nothing: the factorization has a zero pivot"), std::string::npos)
+      << told.report.why;
 }
 
 TEST(Newton, refuses_a_scaling_that_is_not_positive) {
