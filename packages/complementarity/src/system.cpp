@@ -157,13 +157,10 @@ void System::solve(const algebra::Vector& X, const State& state, const algebra::
 }
 
 void System::judge(const algebra::LinearReport& report, double tolerance, double residual, double correction) {
-  if (!std::isfinite(correction) || !std::isfinite(report.residual))
-    throw StepFailed{"the linear solver returned numbers that are not finite"};
-  if (report.converged) {
-    failures_ = 0;
-    return;
-  }
-  ++failures_;
+  const bool finite = std::isfinite(correction) && std::isfinite(report.residual);
+  failures_ = finite && report.converged ? 0 : failures_ + 1;
+  if (!finite) throw StepFailed{"the linear solver returned numbers that are not finite"};
+  if (report.converged) return;
   const std::string what = fmt::format("the linear solver left a residual of {:.2e}, not {:.2e}{}{}", report.residual, tolerance,
                                        report.reason.empty() ? "" : ": ", report.reason);
   if (failures_ > 1) throw StepFailed{what + ", for the second time"};
