@@ -157,14 +157,12 @@ void System::solve(const algebra::Vector& X, const State& state, const algebra::
 }
 
 void System::judge(const algebra::LinearReport& report, double tolerance, double residual, double correction) {
-  if (!std::isfinite(correction) || !std::isfinite(report.residual))
+  const bool finite = std::isfinite(correction) && std::isfinite(report.residual);
+  failures_ = finite && report.converged ? 0 : failures_ + 1;
+  if (!finite)
     throw StepFailed{report.reason.empty() ? "the linear solver returned numbers that are not finite"
                                            : "the linear solver found nothing: " + report.reason};
-  if (report.converged) {
-    failures_ = 0;
-    return;
-  }
-  ++failures_;
+  if (report.converged) return;
   const std::string what = fmt::format("the linear solver left a residual of {:.2e}, not {:.2e}{}{}", report.residual, tolerance,
                                        report.reason.empty() ? "" : ": ", report.reason);
   if (failures_ > 1) throw StepFailed{what + ", for the second time"};

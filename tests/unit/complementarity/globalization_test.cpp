@@ -112,6 +112,7 @@ TEST(Globalization, a_line_search_that_gets_stuck_says_so) {
     EXPECT_FALSE(report.converged);
     if (globalization == Globalization::line_search) {
       EXPECT_NE(report.why.find("no step length lowers"), std::string::npos) << report.why;
+      EXPECT_NE(report.advice.find("Try newton/c-function = min"), std::string::npos) << report.advice;
       EXPECT_NEAR(problem.gather(X)[0], std::sqrt(2.0 / 3), 1e-3);
     }
   }
