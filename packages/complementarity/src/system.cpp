@@ -141,7 +141,8 @@ void System::solve(const algebra::Vector& X, const State& state, const algebra::
     stop.check_every = check_every_;
     stop.criterion = [&](const algebra::Vector& dXi, int iteration, double left) { return look(X, dXi, iteration, left, rhs); };
   }
-  const algebra::LinearReport report = problem_.solve(R, dX, stop);
+  algebra::LinearReport report = problem_.solve(R, dX, stop);
+  report.converged = report.converged || left_to_rounding(X, dX, report.residual);
   linear_iterations_ += report.iterations;
   solved_ = report.converged && !report.by_criterion && !report.shortened;
   left_ = std::max(stop.tolerance, report.residual);
@@ -154,6 +155,13 @@ void System::solve(const algebra::Vector& X, const State& state, const algebra::
     dX.update(1, relaxed, -1, X, 0);
     forget_estimate();
   }
+}
+
+/// Steps that move X far leave more than rounding at X let expect.
+bool System::left_to_rounding(const algebra::Vector& X, const algebra::Vector& dX, double residual) const {
+  algebra::Vector next(X, Teuchos::Copy);
+  next.update(1, dX, 1);
+  return residual <= problem_.noise(next);
 }
 
 void System::judge(const algebra::LinearReport& report, double tolerance, double residual, double correction) {

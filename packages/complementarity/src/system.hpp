@@ -68,6 +68,7 @@ class System {
   bool asks_estimator() const;
   bool asks_criterion() const;
   bool look(const algebra::Vector& X, const algebra::Vector& dX, int iteration, double residual, double rhs);
+  bool left_to_rounding(const algebra::Vector& X, const algebra::Vector& dX, double residual) const;
   void judge(const algebra::LinearReport& report, double tolerance, double residual, double correction);
 
   Problem& problem_;

@@ -68,9 +68,9 @@ struct NewtonReport {
 ///   itself: X^k solves the linear system of its own contact set. With nonlinear E it says that nothing is left to linearize.
 ///
 /// **The linear solver** is stopped at |R_alg| <= eps_alg |B| (Problem::rhs_norm), but never asked for less than a tenth of the absolute
-/// tolerance and of the round-off, nor for more than 14 digits. Rule `inexact` stops it earlier, asked every `check_every` iterations: at
-/// |R_alg|/|B| <= alpha |R(X^{k,i})|/|(F, 0)|. If it fails once but at least halves the linear residual, the step is taken and the next
-/// system is the second try; two failures in a row or a worse one end the run.
+/// tolerance and of the round-off, nor for more than 14 digits; below the round-off at X^k, what stagnates is solved. Rule `inexact` stops
+/// it earlier, asked every `check_every` iterations: at |R_alg|/|B| <= alpha |R(X^{k,i})|/|(F, 0)|. If it fails once but at least halves
+/// the linear residual, the step is taken and the next system is the second try; two failures in a row or a worse one end the run.
 ///
 /// **The rule `adaptive`** (docs/methods/estimates.md) stops the linear solver, asked every `check_every` iterations (seldomer where the
 /// residual shows that it is still far away, unless `stopping/estimate` wants to see every look), and the Newton loop
