@@ -143,9 +143,9 @@ void System::solve(const algebra::Vector& X, const State& state, const algebra::
   }
   const algebra::LinearReport report = problem_.solve(R, dX, stop);
   linear_iterations_ += report.iterations;
-  solved_ = report.converged && !report.by_criterion;
+  solved_ = report.converged && !report.by_criterion && !report.shortened;
   left_ = std::max(stop.tolerance, report.residual);
-  if (looked_at_ != report.iterations) forget_estimate();
+  if (looked_at_ != report.iterations || report.shortened) forget_estimate();
   judge(report, stop.tolerance, residual, dX.norm2());
   if (const int sweeps = newton_.sweeps.value_or(0); sweeps > 0 && function_ == CFunction::min) {
     algebra::Vector relaxed(X, Teuchos::Copy);
@@ -157,13 +157,12 @@ void System::solve(const algebra::Vector& X, const State& state, const algebra::
 }
 
 void System::judge(const algebra::LinearReport& report, double tolerance, double residual, double correction) {
-  if (!std::isfinite(correction) || !std::isfinite(report.residual))
-    throw StepFailed{"the linear solver returned numbers that are not finite"};
-  if (report.converged) {
-    failures_ = 0;
-    return;
-  }
-  ++failures_;
+  const bool finite = std::isfinite(correction) && std::isfinite(report.residual);
+  failures_ = finite && report.converged ? 0 : failures_ + 1;
+  if (!finite)
+    throw StepFailed{report.reason.empty() ? "the linear solver returned numbers that are not finite"
+                                           : "the linear solver found nothing: " + report.reason};
+  if (report.converged) return;
   const std::string what = fmt::format("the linear solver left a residual of {:.2e}, not {:.2e}{}{}", report.residual, tolerance,
                                        report.reason.empty() ? "" : ": ", report.reason);
   if (failures_ > 1) throw StepFailed{what + ", for the second time"};

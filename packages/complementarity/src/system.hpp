@@ -53,6 +53,7 @@ class System {
   double nonlinear_bound(const State& state) const {
     return stopping_.nonlinear_tolerance * reference_ + stopping_.absolute_tolerance + state.round_off;
   }
+  double reference() const { return reference_; }               ///< |(F, 0)|, or the first residual where that is 0
   int linear_iterations() const { return linear_iterations_; }  ///< of all systems
   bool solved() const { return solved_; }                       ///< the last system, to its tolerance
   bool failed() const { return failures_ > 0; }                 ///< … and it was not solved at all

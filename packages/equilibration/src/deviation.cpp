@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "thixis/mesh/remoteness.hpp"
+
 namespace thixis::equilibration {
 namespace {
 
@@ -138,7 +140,7 @@ Deviation deviation_of_obstacle(const method::PolynomialSpace& space, const Boun
   std::vector<LocalIndex> in_layer(mesh.owned_cells, -1), positions;
   for (std::size_t k = 0; k < lift.cells().extent(0); ++k) in_layer[lift.cells()(k)] = static_cast<LocalIndex>(k);
 
-  double low[2] = {1e300, 1e300}, high[2] = {-1e300, -1e300}, size = 0;
+  double low[2] = {1e300, 1e300}, high[2] = {-1e300, -1e300}, size = obstacle->cancelled();
   for (LocalIndex v = 0; v < mesh.vertices; ++v)
     for (int d = 0; d < 2; ++d) {
       low[d] = std::min(low[d], host.coordinates(v, d));
@@ -147,6 +149,16 @@ Deviation deviation_of_obstacle(const method::PolynomialSpace& space, const Boun
   for (const double value : psi) size = std::max(size, std::abs(value));
   size = comm.max(size);
   const double width = std::max(comm.max(high[0]) - comm.min(low[0]), comm.max(high[1]) - comm.min(low[1]));
+
+  // psi at rounded places is known as numbers of that size are
+  const auto known_as = [&](LocalIndex K) {
+    double least = psi[of_cells(K, 0)], most = least;
+    for (int l = 1; l < n; ++l) {
+      least = std::min(least, psi[of_cells(K, l)]);
+      most = std::max(most, psi[of_cells(K, l)]);
+    }
+    return (most - least) * mesh::remoteness(3, [&](int a, int d) { return host.coordinates(host.cell_vertices(K, a), d); });
+  };
 
   // where is psi more than its interpolant?
   bool deviates = false;
@@ -161,12 +173,14 @@ Deviation deviation_of_obstacle(const method::PolynomialSpace& space, const Boun
     method::for_each_block(all, [&](const method::QuadratureBlock& block) {
       method::evaluate(*obstacle, 0, block, value);
       for (LocalIndex k = 0; k < block.cells && block.cell(k) < mesh.owned_cells; ++k) {
+        const LocalIndex K = block.cell(k);
         double most = 0;
+        const double round_off = 1e-13 * std::max(size, known_as(K));
         for (int q = block.offset(k); q < block.offset(k + 1); ++q)
           most = std::max(most, std::abs(psi_less_interpolant(block, k, value, q)));
-        deviates = deviates || most > 1e-13 * size;
-        const bool more = most > 1e-13 * size && !jumps.at(block.first + k);
-        if (more || in_layer[block.cell(k)] >= 0) positions.push_back(block.first + k);
+        deviates = deviates || most > round_off;
+        const bool more = most > round_off && !jumps.at(block.first + k);
+        if (more || in_layer[K] >= 0) positions.push_back(block.first + k);
       }
     });
   });

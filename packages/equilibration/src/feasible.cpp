@@ -459,6 +459,8 @@ FeasiblePair::Bulge FeasiblePair::bulge(const FeasiblePair& before, const Feasib
   comm.together([&] {
     for (int alpha = 0; alpha < count; ++alpha) {
       d[alpha] = boundary_coefficients(space, impl_->nodes, impl_->problem.boundary[alpha].dirichlet, impl_->problem.time);
+      for (const auto& g : impl_->problem.boundary[alpha].dirichlet)
+        if (g) size = std::max(size, g->cancelled());
       const auto first = before.impl_->data[alpha], last = after.impl_->data[alpha];
       for (std::size_t e = 0; e < d[alpha].size(); ++e) {
         size = std::max(size, std::abs(d[alpha][e]));

@@ -18,6 +18,8 @@
 namespace thixis::models {
 namespace {
 
+constexpr double smallest_tension = 1e-60;  // whose reciprocal is no more than scene::largest_value
+
 struct PointList {
   std::vector<double> x, y;
   void add(double px, double py) {
@@ -131,9 +133,12 @@ void check_data(const scene::MembraneScene& scene, const method::MethodParams& m
     });
   });
   for (int alpha = 0; alpha < scene.count; ++alpha)
-    if (const double tension = mesh.comm.min(lowest[alpha]); !(tension >= 1 / scene::largest_value))
-      throw core::InputError(fmt::format("scene/data/{}: the tension falls to {:.6g}; give one that is positive everywhere.",
-                                         named(scene, "mu", alpha), tension));
+    if (const double tension = mesh.comm.min(lowest[alpha]); !(tension >= smallest_tension))
+      throw core::InputError(fmt::format("scene/data/{}: the tension falls to {:.6g}{}.", named(scene, "mu", alpha), tension,
+                                         tension > 0 ? fmt::format(", too small to compute with; write the data in units in which it is at "
+                                                                   "least {:g}",
+                                                                   smallest_tension)
+                                                     : "; give one that is positive everywhere"));
 }
 
 /// The largest divisor of n up to 32: every so many points of a generator's boundary are some of those of n.

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "heights.hpp"
 #include "thixis/core/error.hpp"
+#include "thixis/core/text.hpp"
 #include "thixis/method/values_at.hpp"
 
 namespace thixis::models {
@@ -66,8 +68,28 @@ MembraneLevel::MembraneLevel(const scene::MembraneScene& scene, double origin, c
   nothing_ = Coefficients("thixis::models::nothing", lift_[0].extent(0));
   set_loads();
   problem_ = std::make_unique<MembraneProblem>(membrane_operator(scene, *space_, method, lift_, body_), linear, space_->coordinates());
+  require_stiffness();
   if (scene.count == 1) obstacle_ = space_->complete(*problem_->membranes().obstacle, lift_of_obstacle());
   measure_from_rest();
+}
+
+/// Penalties take a tension for nearly constant in each cell. Where it is not, a function may have negative energy: what shows it on the
+/// diagonal is no stiffness, by which anything could be measured.
+void MembraneLevel::require_stiffness() const {
+  for (int alpha = 0; alpha < scene_.count; ++alpha) {
+    double least = std::numeric_limits<double>::infinity();
+    {
+      const auto diagonal = algebra::host_view(problem_->measure().diagonal(alpha));
+      for (std::size_t l = 0; l < diagonal.extent(0); ++l) least = std::min(least, diagonal(l));
+    }
+    least = space_->mesh().comm.min(least);
+    if (least > 0) continue;
+    throw core::InputError(
+        fmt::format("method/penalty: {} is too small for the tension {}, which varies by orders of magnitude inside a cell: an entry of "
+                    "the diagonal is "
+                    "{:.2e}; write a larger one, finer cells (mesh/refinements), method/variant = nipg, or method/name = fem.",
+                    core::to_text(method_.penalty), scene_.count == 1 ? "mu" : fmt::format("mu{}", alpha + 1), least));
+  }
 }
 
 void MembraneLevel::measure_from_rest() {

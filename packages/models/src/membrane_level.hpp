@@ -66,6 +66,7 @@ class MembraneLevel {
   equilibration::ContactProblem contact_problem() const;
 
  private:
+  void require_stiffness() const;
   void measure_from_rest();
   double reach(double low) const;
   void set_lifts();

@@ -1,5 +1,8 @@
 #include "thixis/scene/heights.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace thixis::scene {
 namespace {
 
@@ -11,6 +14,8 @@ class Shifted final : public Field {
     for (std::size_t i = 0; i < points.count; ++i) values[i] += by_;
   }
   bool steady() const override { return f_->steady(); }
+  std::optional<Degree> degree() const override { return f_->degree(); }
+  double cancelled() const override { return std::max(f_->cancelled(), std::abs(by_)); }
 
  private:
   FieldPtr f_;

@@ -103,6 +103,8 @@ struct NewtonReport {
 /// - `hybrid`: as `none`; damped steps also, from the iterate where the undamped ones began, when |R| is not finite, or for ten successive
 ///   steps has been above its value ten steps before.
 ///
+/// Undamped steps that lead to |R| > 1e20 max(|R^0|, |(F, 0)|) diverge: the run ends, not converged, or goes on damped (`hybrid`).
+///
 /// max iterations = 0 evaluates nothing and returns not converged. NaN in the problem's answers ends the run, not converged.
 NewtonReport newton(Problem& problem, algebra::Vector& X, const NewtonParams& newton, const StoppingParams& stopping, int check_every,
                     const NewtonObserver& observer = {}, const Estimator& estimator = {});

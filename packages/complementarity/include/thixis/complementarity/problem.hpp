@@ -30,7 +30,8 @@ class Problem {
   /// Sets up A = [E'(X); a_l K_l' + b_l G_l'].
   virtual void linearize(const algebra::Vector& X, const algebra::Vector& a, const algebra::Vector& b) = 0;
   /// Solves A dX = -R, R = [E(X) - F; C]: dX is overwritten (the loop starts from zero, that is, from X). `stop.tolerance` bounds the
-  /// residual of that system in the norm |·| below, `stop.criterion` sees the full recovered dX^i.
+  /// residual of that system in the norm |·| below, `stop.criterion` sees the full recovered dX^i. A problem that knows how far its
+  /// linearization reaches may shorten dX, row by row, and says so in the report.
   virtual algebra::LinearReport solve(const algebra::Vector& R, algebra::Vector& dX, const algebra::LinearStop& stop) = 0;
 
   /// Residuals are measured as |R| = (sum over the rows of (w R)²)^½. Rows of different dimension or of different size need weights w that
