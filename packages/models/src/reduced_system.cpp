@@ -247,17 +247,26 @@ class CoupledSystem final : public ReducedSystem {
  public:
   CoupledSystem(const MembraneOperator& membranes, const MembraneMeasure& measure, const algebra::LinearParams& params,
                 const Teuchos::RCP<const MultiVector>& coordinates)
-      : ReducedSystem(membranes, measure), map_(algebra::interlaced(membranes.map(), 2)), stretch_(weight_z() / weight_w()) {
-    const double f1 = membranes.factor[0], f2 = membranes.factor[1], q = stretch_;
-    const double theta1 = q * membranes.theta[0], theta2 = q * membranes.theta[1];
-    const Blocks blocks = {
-        2, {{{f1, f2}, {theta2 * f1, -theta1 * f2}}, {{theta2 * f1, -theta1 * f2}, {theta2 * theta2 * f1, theta1 * theta1 * f2}}}};
-    solver_ = make_constrained_solver(membranes, blocks, params, coordinates);
+      : ReducedSystem(membranes, measure), map_(algebra::interlaced(membranes.map(), 2)), params_(params), coordinates_(coordinates) {
+    stretch(wanted_stretch());
   }
   GlobalIndex nonzeros() const override { return solver_->nonzeros(); }
 
  private:
+  /// The nearest power of two: it rounds nothing, and what acts in a step of time alone decides, not what acted in the first one.
+  double wanted_stretch() const { return std::exp2(std::round(std::log2(weight_z() / weight_w()))); }
+
+  void stretch(double q) {
+    stretch_ = q;
+    const double f1 = membranes_.factor[0], f2 = membranes_.factor[1];
+    const double theta1 = q * membranes_.theta[0], theta2 = q * membranes_.theta[1];
+    const Blocks blocks = {
+        2, {{{f1, f2}, {theta2 * f1, -theta1 * f2}}, {{theta2 * f1, -theta1 * f2}, {theta2 * theta2 * f1, theta1 * theta1 * f2}}}};
+    solver_ = make_constrained_solver(membranes_, blocks, params_, coordinates_);
+  }
+
   void set_matrix(const Vector& contact, const Vector& penalty) override {
+    if (const double q = wanted_stretch(); q != stretch_) stretch(q);
     Vector stretched(penalty, Teuchos::Copy);
     stretched.scale(stretch_ * stretch_);
     solver_->set_matrix(contact, stretched);
@@ -299,7 +308,10 @@ class CoupledSystem final : public ReducedSystem {
   }
 
   algebra::MapPtr map_;
-  double stretch_;  ///< q: the second unknown is z/q, and its equation is multiplied by q, so that both are solved as well as they must be
+  algebra::LinearParams params_;
+  Teuchos::RCP<const MultiVector> coordinates_;
+  double stretch_ =
+      1;  ///< q: the second unknown is z/q, and its equation is multiplied by q, so that both are solved as well as they must be
   std::unique_ptr<ConstrainedSolver> solver_;
 };
 
