@@ -5,7 +5,6 @@
 #include <Tpetra_Core.hpp>
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -193,8 +192,6 @@ int main(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) (std::string(argv[i]).rfind("--kokkos-", 0) == 0 ? kokkos : own).push_back(argv[i]);
   int kokkos_count = static_cast<int>(kokkos.size());
   char** kokkos_words = kokkos.data();
-  // a process alone: Open MPI would start a daemon, for processes that it might be asked for later
-  setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
   Tpetra::ScopeGuard scope(&kokkos_count, &kokkos_words);
 #ifdef THIXIS_ASSERTIONS
   thixis::core::enable_floating_point_traps();
