@@ -1,7 +1,7 @@
 # Everything that Thixis is built on, as targets:
 #   thixis::mpi        MPI without its C++ bindings
 #   thixis::kokkos     Kokkos alone          thixis::tpetra   Tpetra (and Kokkos, Teuchos)
-#   thixis::solvers    Belos, Ifpack2, Amesos2, MueLu         thixis::nox      NOX
+#   thixis::solvers    Belos, Ifpack2, Amesos2                thixis::muelu    MueLu         thixis::nox      NOX
 #   thixis::hdf5       parallel HDF5         thixis::metis, thixis::muparser, thixis::zlib
 # Installed along with the libraries: a client of Thixis finds the same things by the same file. Hence the targets are imported ones,
 # which an export refers to by name.
@@ -38,7 +38,8 @@ function(thixis_trilinos_target name)
 endfunction()
 thixis_trilinos_target(kokkos Kokkos)
 thixis_trilinos_target(tpetra Tpetra)
-thixis_trilinos_target(solvers Belos Ifpack2 Amesos2 MueLu)
+thixis_trilinos_target(solvers Belos Ifpack2 Amesos2)
+thixis_trilinos_target(muelu MueLu)
 thixis_trilinos_target(nox NOX)
 
 set(HDF5_PREFER_PARALLEL TRUE)

@@ -53,7 +53,7 @@ class Listing {
     const std::string format = section(bytes, "MeshFormat");
     old_ = format.substr(0, 3) == "2.2";
     binary_ = format.substr(4, 1) == "1";
-    swapped_ = binary_ && format[format.find('\n') + 1] == 0;
+    swapped_ = binary_ && format[format.find_first_not_of("\r\n", format.find('\n'))] == 0;
     const std::string parts = section(bytes, "PartitionedEntities"),
                       nodes = section(bytes, old_ && section(bytes, "Nodes").empty() ? "ParametricNodes" : "Nodes"),
                       elements = section(bytes, "Elements");

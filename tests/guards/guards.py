@@ -184,6 +184,23 @@ def words():
         assert not wrong, f"{wrong} in:\n{text!r}"
 
 
+def tensions():
+    """Where a tension varies by orders of magnitude inside a cell, a run ends by itself or with a sentence, with every method."""
+    deck = DECKS / "guards/tensions.xml"
+    for mu in ("exp(-60*x)", "exp(-100*x)", "1+1e8*exp(-2000*(x-0.4)^2)"):
+        for method, degrees in (("fem", (1, 2, 4)), ("hho", (1, 3)), ("dg", (1, 3))):
+            for degree in degrees:
+                thixis("run", deck, "--output", "out", *with_settings(scene__data__mu1=mu, method__name=method, method__degree=degree),
+                       expect=(0, 2, 3))
+    for ranks in (1, 2):
+        thixis("run", deck, "--output", "out", *with_settings(method__name="dg"), ranks=ranks, expect=2,
+               says="method/penalty: 10 is too small for the tension mu1, which varies by orders of magnitude inside a cell")
+        thixis("run", deck, "--output", "out", *with_settings(method__name="hho", scene__data__mu1="exp(-100*x)", scene__data__f1="-1e-300"),
+               ranks=ranks, expect=2, says="a tension that varies by too many orders of magnitude inside a cell")
+    thixis("run", deck, "--output", "out", *with_settings(method__name="dg", method__penalty=1000), expect=(0, 3))
+    thixis("run", deck, "--output", "out", *with_settings(method__name="dg", method__variant="nipg"), expect=(0, 3))
+
+
 def sealed(path):
     """Writes the seal of a checkpoint anew, as one who changes it on purpose would."""
     content = path.read_bytes()[512:]
@@ -308,4 +325,4 @@ shutil.rmtree(scratch, ignore_errors=True)
 scratch.mkdir(parents=True)
 signal.alarm(600)
 {"special_files": special_files, "links": links, "two_runs": two_runs, "sizes": sizes, "extremes": extremes, "words": words,
- "forged": forged, "memory": memory}[scenario]()
+ "tensions": tensions, "forged": forged, "memory": memory}[scenario]()

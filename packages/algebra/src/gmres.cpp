@@ -44,8 +44,7 @@ class Gmres : public Method {
       if (!watch_->begin_cycle(x, norm, iteration_->getNumIters())) break;
       r.scale(1 / norm);
       begin_cycle(r, norm);
-      const auto update = run_cycle();
-      if (!update.is_null()) problem_->updateSolution(update, true);
+      add(run_cycle());
     }
     problem_->setLHS(Teuchos::null);
     problem_->setRHS(Teuchos::null);
@@ -76,6 +75,13 @@ class Gmres : public Method {
     (*z)(0, 0) = norm;
     state.z = z;
     iteration_->initializeGmres(state);
+  }
+
+  /// An update that is not finite would take the iterate with it.
+  void add(const Teuchos::RCP<MultiVector>& update) {
+    if (update.is_null()) return;
+    if (std::isfinite(update->getVector(0)->norm2())) problem_->updateSolution(update, true);
+    else watch_->fail("GMRES breaks down: its correction holds NaN or infinity");
   }
 
   /// V_k y_k, before it is preconditioned.

@@ -1,23 +1,19 @@
 #include "multigrid.hpp"
 
-#include <MueLu_CreateTpetraPreconditioner.hpp>
+#include <dlfcn.h>
+
 #include <cmath>
-#include <limits>
+#include <stdexcept>
 
 #include "factorization.hpp"
 #include "failure.hpp"
+#include "muelu.hpp"
 #include "thixis/algebra/tpetra.hpp"
 #include "thixis/core/error.hpp"
 
 namespace thixis::algebra {
 
 namespace {
-
-/// Systems of this size are factorized: the coarsest level, and the whole matrix if no more rows are coupled.
-constexpr int coarse_rows = 500;
-/// Levels with fewer rows per rank than this move to fewer ranks. As it is larger than `coarse_rows`, the coarsest level lives on one rank,
-/// where KLU2 can be trusted (on several it can not).
-constexpr int rows_per_rank = 2000;
 
 /// A row without any off-diagonal entry but zeros gets this fraction of the mean diagonal.
 constexpr double decoupled_diagonal = 1e-4;
@@ -100,38 +96,19 @@ Teuchos::RCP<Matrix> relaxed(const Matrix& A, const Vector& coupled, const Vecto
   return B;
 }
 
-/// MueLu validates the names.
-Teuchos::ParameterList options(int fields, int ranks, const Teuchos::RCP<const MultiVector>& coordinates) {
-  Teuchos::ParameterList list;
-  list.set("verbosity", "none");
-  list.set("multigrid algorithm", "sa");
-  list.set("number of equations", fields);
-  list.set("coarse: max size", coarse_rows);
-  list.set("smoother: type", "CHEBYSHEV");
-  // The smoother is definite only below its bound on the eigenvalues. Ten power iterations and 10 % on top, the defaults, fall short of the
-  // largest one on unstructured meshes.
-  auto& smoother = list.sublist("smoother: params");
-  smoother.set("chebyshev: degree", 3);
-  smoother.set("chebyshev: eigenvalue max iterations", 20);
-  smoother.set("chebyshev: boost factor", 1.2);
-  if (ranks == 1) return list;
-  list.set("repartition: enable", true);
-  list.set("repartition: partitioner", "zoltan2");
-  list.set("repartition: start level", 1);
-  // Cutting into several parts needs coordinates; moving all to one rank does not.
-  const bool cut = !coordinates.is_null();
-  list.set("repartition: min rows per proc", cut ? rows_per_rank : std::numeric_limits<int>::max());
-  list.sublist("repartition: params").set("algorithm", std::string(cut ? "multijagged" : "block"));
-  if (cut) list.sublist("user data").set("Coordinates", Teuchos::rcp_const_cast<MultiVector>(coordinates));
-  return list;
+/// The maker of cycles in the library of MueLu, which is loaded here, once. Throws std::runtime_error.
+MueluCycle* muelu_cycle() {
+  static void* const library = dlopen("libthixis_muelu.so", RTLD_NOW | RTLD_LOCAL);
+  void* const maker = library ? dlsym(library, muelu_cycle_name) : nullptr;
+  if (!maker) throw std::runtime_error(dlerror());
+  return reinterpret_cast<MueluCycle*>(maker);
 }
 
 Teuchos::RCP<const Operator> muelu(const Teuchos::RCP<Matrix>& A, int fields, const Teuchos::RCP<const MultiVector>& coordinates) {
-  auto list = options(fields, A->getComm()->getSize(), coordinates);
   Teuchos::RCP<const Operator> cycle;
   std::optional<std::string> failure;
   try {
-    cycle = MueLu::CreateTpetraPreconditioner(Teuchos::RCP<Operator>(A), list);
+    muelu_cycle()(A, fields, coordinates, cycle);
     Vector ones(A->getRangeMap()), y(A->getDomainMap());
     ones.putScalar(1);
     cycle->apply(ones, y);

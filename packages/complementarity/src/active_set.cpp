@@ -38,20 +38,19 @@ std::uint64_t hash(std::uint64_t x) {
   return x ^ (x >> 31);
 }
 
-double largest_argument(const algebra::Vector& K, const algebra::Vector& G, const algebra::Vector& s, const core::Comm& comm) {
+}  // namespace
+
+double largest_argument(const algebra::Vector& K, const algebra::Vector& G, const algebra::Vector& s) {
   double largest = 0;
   Kokkos::parallel_reduce("thixis::complementarity::largest argument",
                           Kokkos::RangePolicy<Execution>(0, static_cast<int>(K.getLocalLength())),
                           LargestArgument{read(K), read(G), read(s)}, Kokkos::Max<double>(largest));
-  return comm.max(largest);
+  return comm_of(*K.getMap()).max(largest);
 }
 
-}  // namespace
-
-ActiveSet::ActiveSet(const algebra::Vector& K, const algebra::Vector& G, const algebra::Vector& s, Ties ties, double tie_tolerance)
+ActiveSet::ActiveSet(const algebra::Vector& K, const algebra::Vector& G, const algebra::Vector& s, Ties ties, double tie)
     : flags_(K.getLocalLength()), map_(K.getMap()) {
   const core::Comm comm = comm_of(*map_);
-  const double tie = tie_tolerance > 0 ? tie_tolerance * largest_argument(K, G, s, comm) : 0.0;
   const int points = static_cast<int>(flags_.size());
   Kokkos::parallel_for("thixis::complementarity::active set", Kokkos::RangePolicy<Execution>(0, points),
                        Classify{read(K), read(G), read(s), tie, ties == Ties::contact, FlagsOut(flags_.data(), flags_.size())});

@@ -66,7 +66,9 @@ void must_fit(const KktData& data) {
     throw core::Error(core::ExitCode::internal,
                       "The contact conditions need a gap, the claimed multiplier and the multiplier of each body on one map.");
   const auto positive = [](double scale) { return scale > 0 && std::isfinite(scale); };
-  if (!positive(data.gap_scale) || !positive(data.multiplier_scale))
+  const bool bodies = data.body_scale.empty() || data.body_scale.size() == data.equilibrium.size();
+  if (!positive(data.gap_scale) || !positive(data.multiplier_scale) || !bodies ||
+      !std::all_of(data.body_scale.begin(), data.body_scale.end(), positive))
     throw core::Error(core::ExitCode::internal,
                       fmt::format("The contact conditions need positive scales of gap and multiplier, not {} and {}.", data.gap_scale,
                                   data.multiplier_scale));
@@ -80,19 +82,18 @@ Kkt verify(const KktData& data) {
   Kkt kkt;
   kkt.infeasible = worst_of("thixis::complementarity::infeasible", gap, BelowZero{read(gap), data.gap_scale});
   kkt.between_nodes = std::max(judged(data.between_nodes / data.gap_scale), 0.0);
-  kkt.equilibrium = judged(std::abs(data.unbalanced) / data.multiplier_scale);
+  kkt.equilibrium = judged(std::abs(data.unbalanced));
 
-  const auto judge = [&](const algebra::Vector& multiplier) {
-    kkt.negative =
-        std::max(kkt.negative, worst_of("thixis::complementarity::negative", gap, BelowZero{read(multiplier), data.multiplier_scale}));
-    kkt.complementary =
-        std::max(kkt.complementary, worst_of("thixis::complementarity::complementary", gap,
-                                             NotComplementary{read(gap), read(multiplier), data.gap_scale, data.multiplier_scale}));
-    kkt.equilibrium = std::max(kkt.equilibrium, worst_of("thixis::complementarity::equilibrium", gap,
-                                                         Disagreement{read(multiplier), read(*data.claimed), data.multiplier_scale}));
+  const auto judge = [&](const algebra::Vector& multiplier, double scale) {
+    kkt.negative = std::max(kkt.negative, worst_of("thixis::complementarity::negative", gap, BelowZero{read(multiplier), scale}));
+    kkt.complementary = std::max(kkt.complementary, worst_of("thixis::complementarity::complementary", gap,
+                                                             NotComplementary{read(gap), read(multiplier), data.gap_scale, scale}));
+    kkt.equilibrium = std::max(
+        kkt.equilibrium, worst_of("thixis::complementarity::equilibrium", gap, Disagreement{read(multiplier), read(*data.claimed), scale}));
   };
-  judge(*data.claimed);
-  for (const auto& multiplier : data.equilibrium) judge(*multiplier);
+  judge(*data.claimed, data.multiplier_scale);
+  for (std::size_t alpha = 0; alpha < data.equilibrium.size(); ++alpha)
+    judge(*data.equilibrium[alpha], data.body_scale.empty() ? data.multiplier_scale : data.body_scale[alpha]);
 
   std::vector<double> global = {kkt.infeasible, kkt.negative, kkt.complementary, kkt.between_nodes, kkt.equilibrium};
   comm_of(*gap.getMap()).max(global);

@@ -22,7 +22,7 @@ namespace {
 enum class Steps { full, damped };
 
 /// Why a sequence of steps of one kind ended.
-enum class Ending { converged, estimated, cycle, growing, fallen, not_finite, too_many, failed };
+enum class Ending { converged, estimated, cycle, growing, diverged, fallen, not_finite, too_many, failed };
 
 Teuchos::RCP<Teuchos::ParameterList> nox_parameters(Steps steps) {
   const auto list = Teuchos::rcp(new Teuchos::ParameterList);
@@ -51,6 +51,7 @@ struct Tests {
   Teuchos::RCP<SmallEstimate> estimated;
   Teuchos::RCP<Cycle> cycle;
   Teuchos::RCP<Growing> growing;
+  Teuchos::RCP<Diverged> diverged;
   Teuchos::RCP<Fallen> fallen;
   Teuchos::RCP<NOX::StatusTest::MaxIters> most;
   Teuchos::RCP<NOX::StatusTest::Combo> all = Teuchos::rcp(new NOX::StatusTest::Combo(NOX::StatusTest::Combo::OR));
@@ -64,6 +65,7 @@ struct Tests {
     if (system.stopping().rule == StoppingRule::adaptive) add(estimated, new SmallEstimate(system));
     if (full_min) add(cycle, new Cycle(system));
     if (steps == Steps::full && params.globalization == Globalization::hybrid) add(growing, new Growing);
+    if (steps == Steps::full) add(diverged, new Diverged(system));
     if (steps == Steps::damped && !damped_to_the_end) add(fallen, new Fallen(fall));
     add(most, new NOX::StatusTest::MaxIters(most_steps));
   }
@@ -74,6 +76,7 @@ struct Tests {
     if (finite->getStatus() == NOX::StatusTest::Failed) return Ending::not_finite;
     if (!cycle.is_null() && cycle->answered()) return Ending::cycle;
     if (!growing.is_null() && growing->answered()) return Ending::growing;
+    if (!diverged.is_null() && diverged->answered()) return Ending::diverged;
     if (!fallen.is_null() && fallen->answered()) return Ending::fallen;
     return Ending::too_many;
   }
@@ -119,6 +122,7 @@ class Run {
       why_ = failure.why;
       report_.estimate.reset();  // the estimator has seen iterates that are given up
     }
+    grown_by_ = tests.diverged.is_null() ? 0 : tests.diverged->factor();
     period_ = tests.cycle.is_null() ? 0 : tests.cycle->period();
     goes_on_ = report_.steps < params_.max_iterations &&
                (steps == Steps::full ? falls_back(ending, solver.getNumIterations()) : ending == Ending::fallen);
@@ -158,14 +162,14 @@ class Run {
     const bool step_before = ending == Ending::not_finite && solver.getNumIterations() > 0;
     const auto& group = dynamic_cast<const NoxGroup&>(step_before ? solver.getPreviousSolutionGroup() : solver.getSolutionGroup());
     last_ = group.state();
-    const bool back = goes_on_ && (ending == Ending::growing || ending == Ending::not_finite);
+    const bool back = goes_on_ && (ending == Ending::growing || ending == Ending::diverged || ending == Ending::not_finite);
     if (!back) Tpetra::deep_copy(X_, group.X());
   }
 
   bool falls_back(Ending ending, int steps_taken) const {
     if (ending == Ending::cycle) return true;
     if (params_.globalization != Globalization::hybrid) return false;
-    return ending == Ending::growing || (ending == Ending::not_finite && steps_taken > 0);
+    return ending == Ending::growing || ending == Ending::diverged || (ending == Ending::not_finite && steps_taken > 0);
   }
 
   void announce(Ending ending) {
@@ -175,9 +179,10 @@ class Run {
       return;
     }
     ++report_.fallbacks;
-    const std::string why = ending == Ending::cycle     ? fmt::format("Newton-min cycles with period {}", period_)
-                            : ending == Ending::growing ? std::string("The residual keeps growing")
-                                                        : std::string("The residual is not finite");
+    const std::string why = ending == Ending::cycle      ? fmt::format("Newton-min cycles with period {}", period_)
+                            : ending == Ending::growing  ? std::string("The residual keeps growing")
+                            : ending == Ending::diverged ? std::string("The residual has grown without bound")
+                                                         : std::string("The residual is not finite");
     system_.say(fmt::format("{} (step {}): damped Fischer-Burmeister steps until the residual has fallen to {:g} of what it is now.", why,
                             report_.steps, fall_));
   }
@@ -186,6 +191,7 @@ class Run {
     report_.converged = ending == Ending::converged || ending == Ending::estimated;
     if (report_.residuals.empty()) report_.residuals.push_back(last_.residual);
     report_.why = sentence(ending);
+    if (!report_.converged) report_.advice = advice(ending);
     report_.linear_iterations = system_.linear_iterations();
     report_.residual_equations = last_.equations;
     report_.residual_complementarity = last_.complementarity;
@@ -197,7 +203,7 @@ class Run {
   }
 
   std::string sentence(Ending ending) const {
-    const double bound = system_.nonlinear_bound();
+    const double bound = system_.nonlinear_bound(last_);
     switch (ending) {
       case Ending::converged:
         if (last_.residual <= bound) return fmt::format("The residual {:.2e} is below {:.2e}.", last_.residual, bound);
@@ -211,12 +217,30 @@ class Run {
       case Ending::not_finite:
         if (report_.steps == 0) return "The residual at the start is not a finite number.";
         return fmt::format("Step {} gives a residual that is not a finite number; the iterate before it is kept.", report_.steps);
+      case Ending::diverged:
+        return fmt::format("Newton's method diverges: after step {} the residual is {:.2e}, {:.0e} times what it was or the data are.",
+                           report_.steps, last_.residual, grown_by_);
       case Ending::failed:
         return fmt::format("Step {} was not possible: {}.", report_.steps + 1, why_);
       default:
         return fmt::format("No convergence in {} step{} (newton/max iterations): the residual is {:.2e}, not below {:.2e}.", report_.steps,
                            report_.steps == 1 ? "" : "s", last_.residual, bound);
     }
+  }
+
+  /// What a user can do about it.
+  std::string advice(Ending ending) const {
+    if (ending == Ending::failed && system_.failed())
+      return "Try linear/solver = direct, another linear/preconditioner, more linear/max iterations, or a larger stopping/linear "
+             "tolerance.";
+    if (ending == Ending::failed) return "Try newton/c-function = min with newton/globalization = none, or newton/start = nested.";
+    if (ending == Ending::not_finite || ending == Ending::diverged)
+      return report_.steps == 0 ? "Look at the data and at newton/initial."
+                                : "Try newton/globalization = hybrid, or newton/start = nested.";
+    std::string steps = "Try more newton/max iterations";
+    if (params_.globalization == Globalization::none) steps += ", newton/globalization = hybrid";
+    if (params_.start == Start::cold) steps += ", newton/start = nested";
+    return steps + ", or, where the linear systems are the reason, linear/solver = direct.";
   }
 
   const NewtonParams& params_;
@@ -229,6 +253,7 @@ class Run {
   long long changed_ = 0;  ///< contact points that the last step changed
   double fall_ = 0.1;
   int period_ = 0;
+  double grown_by_ = 0;
   bool goes_on_ = false;
 };
 

@@ -48,7 +48,7 @@ NOX::Abstract::Group::ReturnType NoxGroup::computeNewton(Teuchos::ParameterList&
   if (is_newton_) return Ok;
   if (!is_F_ || !is_jacobian_) return BadDependency;
   if (newton_.is_null()) newton_ = Teuchos::rcp(new NoxVector(X_.values().getMap()));
-  system_.solve(X_.values(), R_.values(), newton_->values());
+  system_.solve(X_.values(), state_, R_.values(), newton_->values());
   is_newton_ = true;
   return Ok;
 }

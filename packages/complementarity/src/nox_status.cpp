@@ -2,6 +2,7 @@
 
 #include <NOX_Solver_Generic.H>
 
+#include <algorithm>
 #include <cmath>
 
 #include "adaptive_rule.hpp"
@@ -20,7 +21,7 @@ NOX::StatusTest::StatusType Question::checkStatus(const NOX::Solver::Generic& so
 
 bool SmallResidual::ask(const State& now, const State& before, int k) {
   constexpr int patience = 5;
-  if (!(now.residual <= system_.nonlinear_bound())) {
+  if (!(now.residual <= system_.nonlinear_bound(now))) {
     in_a_row_ = 0;
     return false;
   }
@@ -62,6 +63,13 @@ bool Growing::ask(const State& now, const State&, int k) {
   if (k < window) return false;
   grown_ = now.residual > residuals_[k - window] ? grown_ + 1 : 0;
   return grown_ >= window;
+}
+
+bool Diverged::ask(const State& now, const State&, int k) {
+  constexpr double too_far = 1e20;
+  if (k == 0) start_ = std::max(now.residual, system_.reference());
+  factor_ = now.residual / start_;
+  return factor_ > too_far;
 }
 
 }  // namespace thixis::complementarity

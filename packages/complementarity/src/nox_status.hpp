@@ -104,4 +104,16 @@ class Growing : public Question {
   int grown_ = 0;
 };
 
+/// |R_k| exceeds 1e20 times the larger one of |R_0| and |(F, 0)|: no good run of undamped steps goes that far.
+class Diverged : public Question {
+ public:
+  explicit Diverged(const System& system) : Question(NOX::StatusTest::Failed), system_(system) {}
+  double factor() const { return factor_; }  ///< of the last iterate
+
+ private:
+  bool ask(const State& now, const State& before, int k) override;
+  const System& system_;
+  double start_ = 0, factor_ = 0;
+};
+
 }  // namespace thixis::complementarity

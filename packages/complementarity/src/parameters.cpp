@@ -3,7 +3,9 @@
 namespace thixis::complementarity {
 
 const core::Schema<InitialParams>& InitialParams::schema() {
-  static const auto s = core::Schema<InitialParams>("initial", "Functions that a cold start begins with; what is not given is zero inside.")
+  static const auto s = core::Schema<InitialParams>("initial",
+                                                    "Functions that a cold start begins with; what is not given is zero inside, or the "
+                                                    "height closest to zero at which the membranes are held.")
                             .parameter("u", &InitialParams::u, "Start of the membrane of the obstacle problem.")
                             .parameter("u1", &InitialParams::u1, "Start of the upper membrane.")
                             .parameter("u2", &InitialParams::u2, "Start of the lower membrane.")
@@ -27,10 +29,10 @@ const core::Schema<NewtonParams>& NewtonParams::schema() {
                   "residuals.")
           .choice("ties", &NewtonParams::ties, {{"contact", Ties::contact}, {"free", Ties::free}},
                   "What becomes of points where gap and scaled multiplier are equal.")
-          .parameter(
-              "tie tolerance", &NewtonParams::tie_tolerance, core::between(0, 1e-3),
-              "Gap and scaled multiplier count as equal up to this part of the largest of them at any point: where a basis function has no "
-              "mean, both vanish up to round-off.")
+          .parameter("tie tolerance", &NewtonParams::tie_tolerance, core::between(0, 1e-3),
+                     "Gap and scaled multiplier count as equal up to this part of the way of the membranes, or of the largest scaled "
+                     "multiplier: where "
+                     "a basis function has no mean, both vanish up to round-off.")
           .choice("scaling", &NewtonParams::scaling, {{"none", Scaling::none}, {"physical", Scaling::physical}},
                   "Compare the gap with the multiplier itself, or with the multiplier scaled to a length.")
           .parameter("sweeps", &NewtonParams::sweeps, core::between(0, 10000),

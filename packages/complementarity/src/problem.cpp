@@ -1,13 +1,14 @@
 #include "thixis/complementarity/problem.hpp"
 
-#include "views.hpp"
+#include "thixis/complementarity/active_set.hpp"
 
 namespace thixis::complementarity {
 
-double Problem::rhs_norm(const algebra::Vector&, const algebra::Vector& R) const {
-  const double reference = reference_norm();
-  return reference > 0 ? reference : R.norm2();
+double Problem::gap_size(const algebra::Vector&, const algebra::Vector& K, const algebra::Vector& G, const algebra::Vector& s) const {
+  return largest_argument(K, G, s);
 }
+
+double Problem::rhs_norm(const algebra::Vector&, const algebra::Vector&) const { return reference_norm(); }
 
 void Problem::relax(algebra::Vector&, int) const {}
 

@@ -25,7 +25,10 @@ System::System(Problem& problem, const NewtonParams& newton, const StoppingParam
       C_(problem.points()),
       a_(problem.points()),
       b_(problem.points()),
+      weights_(Teuchos::rcp(new algebra::Vector(problem.map()))),
       reference_(problem.reference_norm()) {
+  if (problem.weights(*weights_)) weighted_ = Teuchos::rcp(new algebra::Vector(problem.map()));
+  else weights_ = Teuchos::null;
   s_.putScalar(1);
   if (newton.scaling != Scaling::physical) return;
   problem.scaling(s_);
@@ -35,16 +38,26 @@ System::System(Problem& problem, const NewtonParams& newton, const StoppingParam
     throw core::Error(core::ExitCode::internal, "The scaling of the multiplier must be positive at every contact point.");
 }
 
+double System::norm(const algebra::Vector& R) {
+  if (weights_.is_null()) return R.norm2();
+  weighted_->elementWiseMultiply(1, *weights_, R, 0);
+  return weighted_->norm2();
+}
+
 State System::residual(const algebra::Vector& X, algebra::Vector& R) {
   State state;
-  problem_.equations(X, R);
-  state.equations = R.norm2();
   problem_.arguments(X, K_, G_);
-  state.active = ActiveSet(K_, G_, s_, newton_.ties, newton_.tie_tolerance);
+  const double tie = newton_.tie_tolerance > 0 ? newton_.tie_tolerance * problem_.gap_size(X, K_, G_, s_) : 0.0;
+  state.active = ActiveSet(K_, G_, s_, newton_.ties, tie);
   evaluate(function_, K_, G_, s_, state.active, C_);
-  state.complementarity = C_.norm2();
+  R.putScalar(0);
+  problem_.insert(C_, R);
+  state.complementarity = norm(R);
+  problem_.equations(X, R);
+  state.equations = norm(R);
   problem_.insert(C_, R);
   state.residual = std::hypot(state.equations, state.complementarity);
+  state.round_off = problem_.noise(X);
   if (!(reference_ > 0)) reference_ = state.residual;
   return state;
 }
@@ -55,10 +68,13 @@ void System::linearize(const algebra::Vector& X, const ActiveSet& active) {
   problem_.linearize(X, a_, b_);
 }
 
+constexpr double digits = 1e-14;  ///< what a linear solver can reduce a residual to, at best
+
 /// Never more than a tenth of the residual that the step starts from: a solver that has nothing to do would not move X.
-double System::linear_tolerance(double rhs, double residual) const {
-  const double wanted = std::max(stopping_.linear_tolerance * rhs, 0.1 * stopping_.absolute_tolerance);
-  return std::min(wanted, 0.1 * residual);
+double System::linear_tolerance(double rhs, const State& state) const {
+  const double possible = std::max(0.1 * state.round_off, digits * state.residual);
+  const double wanted = std::max({stopping_.linear_tolerance * rhs, 0.1 * stopping_.absolute_tolerance, possible});
+  return std::min(wanted, 0.1 * state.residual);
 }
 
 /// An estimate costs as much as some iterations: after one that exceeds what is allowed by a factor e, the next one waits until the
@@ -111,12 +127,12 @@ void System::end_step(long long changed) {
   strictness_.step(*estimate_, function_ == CFunction::min && changed == 0, stopping_);
 }
 
-void System::solve(const algebra::Vector& X, const algebra::Vector& R, algebra::Vector& dX) {
-  const double residual = R.norm2();
+void System::solve(const algebra::Vector& X, const State& state, const algebra::Vector& R, algebra::Vector& dX) {
+  const double residual = state.residual;
   double rhs = problem_.rhs_norm(X, R);
   if (!(rhs > 0)) rhs = residual;
   algebra::LinearStop stop;
-  stop.tolerance = linear_tolerance(rhs, residual);
+  stop.tolerance = linear_tolerance(rhs, state);
   forget_estimate();
   looked_at_ = 0;
   worth_looking_ = std::numeric_limits<double>::infinity();
@@ -125,11 +141,12 @@ void System::solve(const algebra::Vector& X, const algebra::Vector& R, algebra::
     stop.check_every = check_every_;
     stop.criterion = [&](const algebra::Vector& dXi, int iteration, double left) { return look(X, dXi, iteration, left, rhs); };
   }
-  const algebra::LinearReport report = problem_.solve(R, dX, stop);
+  algebra::LinearReport report = problem_.solve(R, dX, stop);
+  report.converged = report.converged || left_to_rounding(X, dX, report.residual);
   linear_iterations_ += report.iterations;
-  solved_ = report.converged && !report.by_criterion;
+  solved_ = report.converged && !report.by_criterion && !report.shortened;
   left_ = std::max(stop.tolerance, report.residual);
-  if (looked_at_ != report.iterations) forget_estimate();
+  if (looked_at_ != report.iterations || report.shortened) forget_estimate();
   judge(report, stop.tolerance, residual, dX.norm2());
   if (const int sweeps = newton_.sweeps.value_or(0); sweeps > 0 && function_ == CFunction::min) {
     algebra::Vector relaxed(X, Teuchos::Copy);
@@ -140,14 +157,20 @@ void System::solve(const algebra::Vector& X, const algebra::Vector& R, algebra::
   }
 }
 
+/// Steps that move X far leave more than rounding at X let expect.
+bool System::left_to_rounding(const algebra::Vector& X, const algebra::Vector& dX, double residual) const {
+  algebra::Vector next(X, Teuchos::Copy);
+  next.update(1, dX, 1);
+  return residual <= problem_.noise(next);
+}
+
 void System::judge(const algebra::LinearReport& report, double tolerance, double residual, double correction) {
-  if (!std::isfinite(correction) || !std::isfinite(report.residual))
-    throw StepFailed{"the linear solver returned numbers that are not finite"};
-  if (report.converged) {
-    failures_ = 0;
-    return;
-  }
-  ++failures_;
+  const bool finite = std::isfinite(correction) && std::isfinite(report.residual);
+  failures_ = finite && report.converged ? 0 : failures_ + 1;
+  if (!finite)
+    throw StepFailed{report.reason.empty() ? "the linear solver returned numbers that are not finite"
+                                           : "the linear solver found nothing: " + report.reason};
+  if (report.converged) return;
   const std::string what = fmt::format("the linear solver left a residual of {:.2e}, not {:.2e}{}{}", report.residual, tolerance,
                                        report.reason.empty() ? "" : ": ", report.reason);
   if (failures_ > 1) throw StepFailed{what + ", for the second time"};

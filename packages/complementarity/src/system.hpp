@@ -10,9 +10,10 @@ namespace thixis::complementarity {
 /// What is known about an iterate.
 struct State {
   ActiveSet active;
-  double residual = 0;         ///< |(E(X) - F, C(X))|
+  double residual = 0;         ///< |(E(X) - F, C(X))|, in the norm of the problem as the others
   double equations = 0;        ///< |E(X) - F|
   double complementarity = 0;  ///< |C(X)|
+  double round_off = 0;        ///< what rounding may have left in `residual`
 };
 
 /// No next iterate: the linear solver or the line search failed. `why` is the rest of a sentence about the step.
@@ -38,7 +39,7 @@ class System {
   void linearize(const algebra::Vector& X, const ActiveSet& active);
   /// A(X) dX = -R with the A of the last `linearize`, then (Newton-min) the smoothing that the deck asks for; throws StepFailed on all
   /// ranks.
-  void solve(const algebra::Vector& X, const algebra::Vector& R, algebra::Vector& dX);
+  void solve(const algebra::Vector& X, const State& state, const algebra::Vector& R, algebra::Vector& dX);
 
   /// The estimate at an iterate that is to be judged, if there is anybody who wants it; kept until the iterate moves.
   const std::optional<Estimate>& estimate(const algebra::Vector& X);
@@ -48,19 +49,26 @@ class System {
   void forget_estimate() { estimate_.reset(); }
   const StoppingParams& stopping() const { return stopping_; }
 
-  double nonlinear_bound() const { return stopping_.nonlinear_tolerance * reference_ + stopping_.absolute_tolerance; }
+  /// What the residual of an iterate may be.
+  double nonlinear_bound(const State& state) const {
+    return stopping_.nonlinear_tolerance * reference_ + stopping_.absolute_tolerance + state.round_off;
+  }
+  double reference() const { return reference_; }               ///< |(F, 0)|, or the first residual where that is 0
   int linear_iterations() const { return linear_iterations_; }  ///< of all systems
   bool solved() const { return solved_; }                       ///< the last system, to its tolerance
+  bool failed() const { return failures_ > 0; }                 ///< … and it was not solved at all
   double left() const { return left_; }                         ///< bound on the residual of the last system
   void say(const std::string& sentence) const {
     if (observer_.message) observer_.message(sentence);
   }
 
  private:
-  double linear_tolerance(double rhs, double residual) const;
+  double norm(const algebra::Vector& R);
+  double linear_tolerance(double rhs, const State& state) const;
   bool asks_estimator() const;
   bool asks_criterion() const;
   bool look(const algebra::Vector& X, const algebra::Vector& dX, int iteration, double residual, double rhs);
+  bool left_to_rounding(const algebra::Vector& X, const algebra::Vector& dX, double residual) const;
   void judge(const algebra::LinearReport& report, double tolerance, double residual, double correction);
 
   Problem& problem_;
@@ -71,6 +79,7 @@ class System {
   int check_every_;
   CFunction function_;
   algebra::Vector K_, G_, s_, C_, a_, b_;
+  Teuchos::RCP<algebra::Vector> weights_, weighted_;  ///< of the rows; null: all are 1
   double reference_;
   int step_ = 0;
   int linear_iterations_ = 0;

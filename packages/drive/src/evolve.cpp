@@ -169,7 +169,7 @@ class Run {
   /// Of the deck, or what the tolerance of the nonlinear solver allows.
   double kkt_tolerance(const complementarity::KktData& data) {
     const double residual = params_.stopping.nonlinear_tolerance * evolution_.problem().reference_norm() +
-                            params_.stopping.absolute_tolerance + evolution_.round_off();
+                            params_.stopping.absolute_tolerance + evolution_.round_off() + evolution_.problem().noise(*out_.X);
     return params_.stopping.kkt_tolerance.value_or(data.allowed(residual));
   }
 
@@ -179,10 +179,12 @@ class Run {
       return true;
     }
     ++out_.at.retries;
+    const std::string& advice = out_.last.advice;
     out_.why = fmt::format(
-        "the step from time {:.6g} to {:.6g} failed, and shorter ones would be below time/smallest = {:.3g}: {} Try a smaller "
-        "time/smallest, more newton/max iterations, or newton/globalization = hybrid.",
-        step.begin, step.end, control_.smallest(), out_.last.why);
+        "the step from time {:.6g} to {:.6g} failed, and shorter ones would be below time/smallest = {:.3g}: {} {} Or allow a smaller "
+        "time/smallest.",
+        step.begin, step.end, control_.smallest(), out_.last.why,
+        advice.empty() ? "Try a smaller stopping/linear tolerance or newton/globalization = hybrid." : advice);
     return false;
   }
 

@@ -101,7 +101,7 @@ Verdict judge(const RunParams& params, const models::Model& model, const models:
                                          effort(outcome.at), deck.located(core::InputError(outcome.mistake)).what())};
   if (!outcome.solved) return {ExitCode::not_converged, "not converged: " + outcome.why};
   if (params.stopping.rule != complementarity::StoppingRule::adaptive && outcome.kkt && !outcome.kkt->holds(outcome.kkt_tolerance))
-    return {ExitCode::not_converged, "not converged: Newton stopped. " + outcome.kkt->sentence(outcome.kkt_tolerance)};
+    return {ExitCode::not_converged, not_in_contact(outcome.last, *outcome.kkt, outcome.kkt_tolerance)};
   const auto bound = evolution.estimate_so_far();
   if (params.stopping.target && bound && bound->total > *params.stopping.target)
     return {

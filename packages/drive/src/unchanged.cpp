@@ -17,7 +17,7 @@ bool begins_with(const std::string& path, const std::string& beginning) { return
 bool fixed(const std::string& path) {
   const std::array<const char*, 3> free = {"mesh/refinements", "mesh/cells per rank", "mesh/file"};
   if (std::find(free.begin(), free.end(), path) != free.end()) return false;
-  return path == "scene/model" || path == "scene/case" || path == "time/unit" || begins_with(path, "mesh/") || begins_with(path, "method/");
+  return path == "scene/model" || path == "time/unit" || begins_with(path, "mesh/") || begins_with(path, "method/");
 }
 
 }  // namespace

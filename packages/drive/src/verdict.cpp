@@ -39,6 +39,17 @@ std::string bound_clause(const std::string& name, const complementarity::Estimat
   return fmt::format("{} {:.4e} ({})", name, eta.total, to_text(eta.promise));
 }
 
+std::string not_converged(const complementarity::NewtonReport& newton) {
+  return "not converged: " + newton.why + (newton.advice.empty() ? "" : " " + newton.advice);
+}
+
+std::string not_in_contact(const complementarity::NewtonReport& newton, const complementarity::Kkt& kkt, double tolerance) {
+  return fmt::format(
+      "not converged: Newton stopped. {} But: {} Try linear/solver = direct or a smaller stopping/linear tolerance, a smaller "
+      "stopping/nonlinear tolerance, or newton/globalization = hybrid.",
+      newton.why, kkt.sentence(tolerance));
+}
+
 Verdict judge(const RunParams& params, const Outcome& outcome) {
   const auto missing = missed(params.expect, found(outcome));
   const std::string clauses = fmt::format("{}", fmt::join(missing, "; "));
@@ -46,9 +57,9 @@ Verdict judge(const RunParams& params, const Outcome& outcome) {
     if (!missing.empty()) return {ExitCode::target_missed, "not solved (max iterations = 0), and not as expected: " + clauses + "."};
     return {ExitCode::done, "not solved: max iterations = 0 only counts the unknowns."};
   }
-  if (!outcome.solved) return {ExitCode::not_converged, "not converged: " + outcome.finest.why};
+  if (!outcome.solved) return {ExitCode::not_converged, not_converged(outcome.finest)};
   if (params.stopping.rule != complementarity::StoppingRule::adaptive && !outcome.kkt->holds(outcome.kkt_tolerance))
-    return {ExitCode::not_converged, "not converged: Newton stopped. " + outcome.kkt->sentence(outcome.kkt_tolerance)};
+    return {ExitCode::not_converged, not_in_contact(outcome.finest, *outcome.kkt, outcome.kkt_tolerance)};
   if (params.stopping.target && !outcome.refinement_ended.empty())
     return {ExitCode::target_missed,
             target_missed(params, outcome) + (missing.empty() ? "" : "; besides, not as expected: " + clauses) + "."};

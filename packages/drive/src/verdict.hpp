@@ -11,6 +11,10 @@ struct Verdict {
   std::string sentence;
 };
 
+/// Why a run that ended with X is no solution, and what to try: Newton has not converged, or did and X breaks the contact conditions.
+std::string not_converged(const complementarity::NewtonReport& newton);
+std::string not_in_contact(const complementarity::NewtonReport& newton, const complementarity::Kkt& kkt, double tolerance);
+
 /// "energy error at most 1.2345e-02 (guaranteed)": an estimate by its name, with what it promises.
 std::string bound_clause(const std::string& name, const complementarity::Estimate& eta);
 

@@ -8,6 +8,7 @@
 #include "thixis/algebra/tpetra.hpp"
 #include "thixis/core/error.hpp"
 #include "thixis/mesh/geometry.hpp"
+#include "thixis/mesh/remoteness.hpp"
 #include "thixis/method/gradient_form.hpp"
 #include "thixis/reference/quadrature.hpp"
 #include "to_view.hpp"
@@ -227,6 +228,9 @@ void BoundaryLift::find_faces(const ContinuousNodes& nodes, const std::array<sce
       double square = 0;
       for (int alpha = 0; alpha < count_; ++alpha) {
         boundary[alpha].dirichlet[tag]->evaluate({x.size(), x.data(), y.data()}, time_, g.data());
+        const auto [low, high] = std::minmax_element(g.begin(), g.end());
+        const double by_place = mesh::remoteness(3, [&](int v, int d) { return corners[v][d]; }) * (*high - *low);
+        size = std::max({size, boundary[alpha].dirichlet[tag]->cancelled(), by_place});
         LiftInCell& lift = cell.l[alpha];
         LiftInCell::Series& coefficient = lift.q[lift.faces];
         coefficient = {};

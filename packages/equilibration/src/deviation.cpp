@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "thixis/mesh/remoteness.hpp"
+
 namespace thixis::equilibration {
 namespace {
 
@@ -54,6 +56,30 @@ method::CellQuadrature composite(method::CellQuadrature quadrature, int sides) {
   return quadrature;
 }
 
+/// Points of the reference triangle on its faces, those of one after those of the other.
+constexpr int points_of_face = 16;
+View<double* [2]> face_points() {
+  const View<double* [2]> xi("thixis::equilibration::face_points", 3 * points_of_face);
+  for (int i = 0; i < 3; ++i)
+    for (int m = 0; m < points_of_face; ++m) {
+      double lambda[3] = {0, 0, 0};
+      lambda[(i + 1) % 3] = 1 - (m + 0.5) / points_of_face;
+      lambda[(i + 2) % 3] = (m + 0.5) / points_of_face;
+      for (int d = 0; d < 2; ++d) xi(i * points_of_face + m, d) = lambda[1 + d];
+    }
+  return xi;
+}
+
+/// Marks the held faces of a cell on which D, given at face_points(), is more than round-off.
+void mark_held(const mesh::HostMesh& host, const std::vector<bool>& dirichlet, LocalIndex K, const double* D, double noise,
+               const View<bool* [3]>& on_held, LocalIndex place) {
+  for (int i = 0; i < 3; ++i) {
+    const LocalIndex tag = host.face_tag(host.cell_faces(K, i));
+    if (tag < 0 || !dirichlet[tag]) continue;
+    for (int m = 0; m < points_of_face; ++m) on_held(place, i) = on_held(place, i) || std::abs(D[i * points_of_face + m]) > noise;
+  }
+}
+
 View<LocalIndex*> nowhere(const mesh::Mesh& mesh) {
   const View<LocalIndex*> place("thixis::equilibration::place_of_deviation", mesh.owned_cells);
   Kokkos::deep_copy(place, -1);
@@ -62,7 +88,8 @@ View<LocalIndex*> nowhere(const mesh::Mesh& mesh) {
 
 }  // namespace
 
-Deviation deviation_of_membranes(const method::PolynomialSpace& space, const BoundaryLift& lift) {
+Deviation deviation_of_membranes(const method::PolynomialSpace& space, const BoundaryLift& lift, const std::vector<bool>& dirichlet,
+                                 double noise) {
   if (lift.empty()) return {};
   const mesh::Mesh& mesh = space.mesh();
   const auto& cells = lift.cells();
@@ -72,12 +99,15 @@ Deviation deviation_of_membranes(const method::PolynomialSpace& space, const Bou
   const View<double*> bound("thixis::equilibration::deviation_bound", cells.extent(0));
   const View<double* [3]> D("thixis::equilibration::deviation", deviation.quadrature.points());
   const auto host = mesh::on_host(mesh);
-  const LiftTable table = lift.table(deviation.quadrature.rule_xi);
+  const View<bool* [3]> on_held("thixis::equilibration::deviation_on_held", cells.extent(0));
+  const LiftTable table = lift.table(deviation.quadrature.rule_xi), on_faces = lift.table(face_points());
   std::vector<double> L[3];
   for (LocalIndex k = 0; k < cells.extent_int(0); ++k) {
     place(cells(k)) = k;
     bound(k) = lift.bound_of_difference(k);
     const auto K = mesh::cell_geometry(host.coordinates, host.cell_vertices, cells(k));
+    on_faces.evaluate(lift.difference(k), L);
+    mark_held(host, dirichlet, cells(k), L[0].data(), noise, on_held, k);
     table.evaluate(lift.difference(k), L);
     const GlobalIndex first = deviation.quadrature.offset(k);
     for (int q = 0; q < table.points(); ++q) {
@@ -88,11 +118,13 @@ Deviation deviation_of_membranes(const method::PolynomialSpace& space, const Bou
   deviation.place = place;
   deviation.bound = bound;
   deviation.at_points = D;
+  deviation.on_held = on_held;
   return deviation;
 }
 
 Deviation deviation_of_obstacle(const method::PolynomialSpace& space, const BoundaryLift& lift, const ContinuousNodes& nodes,
-                                const scene::FieldPtr& obstacle, const std::vector<double>& psi, const method::Jumps& jumps) {
+                                const scene::FieldPtr& obstacle, const std::vector<double>& psi, const method::Jumps& jumps,
+                                const std::vector<bool>& dirichlet) {
   const mesh::Mesh& mesh = space.mesh();
   const core::Comm& comm = mesh.comm;
   const auto host = mesh::on_host(mesh);
@@ -108,7 +140,7 @@ Deviation deviation_of_obstacle(const method::PolynomialSpace& space, const Boun
   std::vector<LocalIndex> in_layer(mesh.owned_cells, -1), positions;
   for (std::size_t k = 0; k < lift.cells().extent(0); ++k) in_layer[lift.cells()(k)] = static_cast<LocalIndex>(k);
 
-  double low[2] = {1e300, 1e300}, high[2] = {-1e300, -1e300}, size = 0;
+  double low[2] = {1e300, 1e300}, high[2] = {-1e300, -1e300}, size = obstacle->cancelled();
   for (LocalIndex v = 0; v < mesh.vertices; ++v)
     for (int d = 0; d < 2; ++d) {
       low[d] = std::min(low[d], host.coordinates(v, d));
@@ -117,6 +149,16 @@ Deviation deviation_of_obstacle(const method::PolynomialSpace& space, const Boun
   for (const double value : psi) size = std::max(size, std::abs(value));
   size = comm.max(size);
   const double width = std::max(comm.max(high[0]) - comm.min(low[0]), comm.max(high[1]) - comm.min(low[1]));
+
+  // psi at rounded places is known as numbers of that size are
+  const auto known_as = [&](LocalIndex K) {
+    double least = psi[of_cells(K, 0)], most = least;
+    for (int l = 1; l < n; ++l) {
+      least = std::min(least, psi[of_cells(K, l)]);
+      most = std::max(most, psi[of_cells(K, l)]);
+    }
+    return (most - least) * mesh::remoteness(3, [&](int a, int d) { return host.coordinates(host.cell_vertices(K, a), d); });
+  };
 
   // where is psi more than its interpolant?
   bool deviates = false;
@@ -131,23 +173,25 @@ Deviation deviation_of_obstacle(const method::PolynomialSpace& space, const Boun
     method::for_each_block(all, [&](const method::QuadratureBlock& block) {
       method::evaluate(*obstacle, 0, block, value);
       for (LocalIndex k = 0; k < block.cells && block.cell(k) < mesh.owned_cells; ++k) {
+        const LocalIndex K = block.cell(k);
         double most = 0;
+        const double round_off = 1e-13 * std::max(size, known_as(K));
         for (int q = block.offset(k); q < block.offset(k + 1); ++q)
           most = std::max(most, std::abs(psi_less_interpolant(block, k, value, q)));
-        deviates = deviates || most > 1e-13 * size;
-        const bool more = most > 1e-13 * size && !jumps.at(block.first + k);
-        if (more || in_layer[block.cell(k)] >= 0) positions.push_back(block.first + k);
+        deviates = deviates || most > round_off;
+        const bool more = most > round_off && !jumps.at(block.first + k);
+        if (more || in_layer[K] >= 0) positions.push_back(block.first + k);
       }
     });
   });
-  if (!comm.any(!positions.empty())) return {};
-
   Deviation deviation;
-  deviation.of_obstacle = comm.any(deviates);
+  deviation.of_obstacle = comm.any(deviates || jumps.any());
+  if (!comm.any(!positions.empty())) return deviation;
   deviation.quadrature = subset(all, positions);
   const auto place = nowhere(mesh);
   const View<double*> bound("thixis::equilibration::deviation_bound", positions.size());
   const View<double* [3]> D("thixis::equilibration::deviation", deviation.quadrature.points());
+  const View<bool* [3]> on_held("thixis::equilibration::deviation_on_held", positions.size());
   const auto slope = scene::difference_gradient(obstacle, 1e-5 * width);
   comm.together([&] {
     const int length = deviation.quadrature.largest_block;
@@ -185,10 +229,35 @@ Deviation deviation_of_obstacle(const method::PolynomialSpace& space, const Boun
         }
       }
     });
+    const auto xi = face_points();
+    std::vector<double> px(xi.extent(0)), py(xi.extent(0)), of_psi(xi.extent(0)), on_faces(xi.extent(0));
+    for (std::size_t at = 0; at < positions.size(); ++at) {
+      const LocalIndex K = all.cell(positions[at]);
+      const auto is_held = [&](int i) {
+        return host.face_tag(host.cell_faces(K, i)) >= 0 && dirichlet[host.face_tag(host.cell_faces(K, i))];
+      };
+      if (!is_held(0) && !is_held(1) && !is_held(2)) continue;
+      double c[reference::max_functions];
+      polynomial(K, c);
+      for (std::size_t q = 0; q < xi.extent(0); ++q) {
+        const double lambda[3] = {1 - xi(q, 0) - xi(q, 1), xi(q, 0), xi(q, 1)};
+        px[q] = py[q] = 0;
+        for (int a = 0; a < 3; ++a) {
+          px[q] += lambda[a] * host.coordinates(host.cell_vertices(K, a), 0);
+          py[q] += lambda[a] * host.coordinates(host.cell_vertices(K, a), 1);
+        }
+        on_faces[q] = functions.B.value(c, lambda);
+        if (in_layer[K] >= 0) on_faces[q] += lift(0, in_layer[K], xi(q, 0), xi(q, 1)).value;
+      }
+      obstacle->evaluate({px.size(), px.data(), py.data()}, 0, of_psi.data());
+      for (std::size_t q = 0; q < xi.extent(0); ++q) on_faces[q] -= of_psi[q];
+      mark_held(host, dirichlet, K, on_faces.data(), 1e-12 * size, on_held, static_cast<LocalIndex>(at));
+    }
   });
   deviation.place = place;
   deviation.bound = bound;
   deviation.at_points = D;
+  deviation.on_held = on_held;
   return deviation;
 }
 

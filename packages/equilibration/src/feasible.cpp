@@ -6,6 +6,7 @@
 
 #include "averages.hpp"
 #include "deviation.hpp"
+#include "pressing.hpp"
 #include "sources.hpp"
 #include "tables.hpp"
 #include "tension_bounds.hpp"
@@ -216,6 +217,7 @@ struct FeasiblePair::Impl {
     kernel.vertices = mesh.cell_vertices;
     kernel.functions = method::cell_functions(space.basis());
     kernel.energy = {space.basis().bernstein(), gradient_products(space.basis()), space.quadrature(), tension};
+    kernel.first_vertex = space.basis().interior();
     kernel.negative_part = negative_part(space.basis(), kernel.energy.products);
     kernel.to_modal = bernstein_to_modal(space.basis());
     kernel.of_cells = nodes.of_cells;
@@ -243,7 +245,11 @@ struct FeasiblePair::Impl {
     }
     lift = std::make_unique<BoundaryLift>(space, nodes, problem.tension, problem.boundary, held, problem.count, problem.time, other);
     kernel.lift = lift->of_cells();
-    if (problem.count == 2) kernel.deviation = deviation_of_membranes(space, *lift);
+    double size = 0;
+    for (const auto& values : held)
+      for (const double value : values) size = std::max(size, std::abs(value));
+    size = space.mesh().comm.max(size);
+    if (problem.count == 2) kernel.deviation = deviation_of_membranes(space, *lift, held_tags(problem.boundary[0]), 1e-12 * size);
     else set_obstacle(held[1], held[0]);
     for (int alpha = 0; alpha < 2; ++alpha) data[alpha] = to_view("thixis::equilibration::held", held[alpha]);
   }
@@ -251,10 +257,26 @@ struct FeasiblePair::Impl {
   /// `psi`: psi_I, `g`: the boundary data.
   void set_obstacle(const std::vector<double>& psi, const std::vector<double>& g) {
     const auto above = majorant(space, nodes, jumps, psi, g);
-    kernel.deviation = deviation_of_obstacle(space, *lift, nodes, problem.obstacle, above.empty() ? psi : above, jumps);
+    kernel.deviation =
+        deviation_of_obstacle(space, *lift, nodes, problem.obstacle, above.empty() ? psi : above, jumps, held_tags(problem.boundary[0]));
     if (above.empty()) return;
     kernel.majorant = to_view("thixis::equilibration::majorant", above);
     kernel.excess = excess_of_majorant(space, nodes, *problem.obstacle, above, jumps);
+  }
+
+  /// Vertices of cells in which the obstacle jumps: there s lies on a majorant.
+  std::vector<bool> of_jumps() const {
+    std::vector<bool> vertices(space.mesh().vertices, false);
+    const auto host = mesh::on_host(space.mesh());
+    const auto cells = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), space.cells());
+    for (std::size_t k = 0; k < cells.extent(0); ++k)
+      for (int i = 0; i < 3 && jumps.at(static_cast<LocalIndex>(k)); ++i) vertices[host.cell_vertices(cells(k), i)] = true;
+    return vertices;
+  }
+  /// Set up when it is first asked for. Collective.
+  Pressing& pressing() {
+    if (!pressing_) pressing_ = std::make_unique<Pressing>(space, kernel, held_tags(problem.boundary[0]), of_jumps());
+    return *pressing_;
   }
 
   /// Gaps below are round-off. Collective.
@@ -281,14 +303,15 @@ struct FeasiblePair::Impl {
   std::unique_ptr<BoundaryLift> lift;
   std::optional<Averages> averages;
   View<double*> averaged[2];
+  std::unique_ptr<Pressing> pressing_;
 };
 
 FeasiblePair::FeasiblePair(const method::PolynomialSpace& space, const Problem& problem) : impl_(std::make_unique<Impl>(space, problem)) {}
 FeasiblePair::FeasiblePair(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 FeasiblePair::~FeasiblePair() = default;
 
-void FeasiblePair::evaluate(const method::Coefficients (&u)[2], const ConstCellTable& lambda, int degree, Parts& parts,
-                            double small) const {
+void FeasiblePair::evaluate(const method::Coefficients (&u)[2], const ConstCellTable& lambda, int degree, Parts& parts, double small,
+                            Gaps gaps) const {
   THIXIS_ASSERT_LE(degree, max_density_degree, "densities have tables up to that degree");
   const LocalIndex cells = impl_->space.mesh().owned_cells;
   resize(parts.whole, "thixis::equilibration::whole", cells);
@@ -308,6 +331,12 @@ void FeasiblePair::evaluate(const method::Coefficients (&u)[2], const ConstCellT
   kernel.noise = impl_->noise({kernel.s_c[0], kernel.s_c[1]});
   kernel.small = small;
   kernel.lambda = lambda;
+  if (gaps == Gaps::pressed) {
+    Pressing& pressing = impl_->pressing();
+    pressing(kernel);
+    kernel.closed = pressing.closed();
+    kernel.followed = pressing.followed();
+  }
   kernel.density.degree = degree;
   kernel.whole = parts.whole;
   kernel.at_nodes = parts.at_nodes;
@@ -430,6 +459,8 @@ FeasiblePair::Bulge FeasiblePair::bulge(const FeasiblePair& before, const Feasib
   comm.together([&] {
     for (int alpha = 0; alpha < count; ++alpha) {
       d[alpha] = boundary_coefficients(space, impl_->nodes, impl_->problem.boundary[alpha].dirichlet, impl_->problem.time);
+      for (const auto& g : impl_->problem.boundary[alpha].dirichlet)
+        if (g) size = std::max(size, g->cancelled());
       const auto first = before.impl_->data[alpha], last = after.impl_->data[alpha];
       for (std::size_t e = 0; e < d[alpha].size(); ++e) {
         size = std::max(size, std::abs(d[alpha][e]));
@@ -487,7 +518,7 @@ std::size_t FeasiblePair::bytes() const {
   return of(impl_->data[0], impl_->data[1], impl_->averaged[0], impl_->averaged[1], k.theta, k.move_tension, k.lift.place, k.lift.energy,
             k.lift.products, k.deviation.place, k.deviation.bound, k.deviation.at_points, k.energy.mu.at_points[0],
             k.energy.mu.at_points[1]) +
-         (impl_->averages ? of(k.of_cells) : 0);
+         (impl_->averages ? of(k.of_cells) : 0) + (impl_->pressing_ ? impl_->pressing_->bytes() : 0);
 }
 
 }  // namespace thixis::equilibration

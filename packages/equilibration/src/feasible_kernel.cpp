@@ -37,9 +37,9 @@ KOKKOS_FUNCTION FeasibleParts::Move FeasibleParts::move_pointwise(int K, LocalIn
                                                                   const double* gap, bool counts) const {
   const int n = functions.size();
   Move move;
-  const bool open = smallest(n, gap) >= deviation.bound(place);
-  if (open && !counts) return move;
-  if (open && !deviation.of_obstacle) {  // by D at most wider than the polynomial
+  const bool open = smallest(n, gap) >= deviation.bound(place), follow = follows(K);
+  if (open && !counts && !follow) return move;
+  if (open && !deviation.of_obstacle && !follow) {  // by D at most wider than the polynomial
     double widest[most];
     for (int k = 0; k < n; ++k) widest[k] = gap[k] + deviation.bound(place);
     move.contact = contact_of(K, widest);
@@ -48,26 +48,36 @@ KOKKOS_FUNCTION FeasibleParts::Move FeasibleParts::move_pointwise(int K, LocalIn
   if (at_points.data() != nullptr) at_points() = true;
   double a[max_density];
   if (counts) density.monomials(&lambda(K, 0), a);
+  double chi[3] = {0, 0, 0};
+  for (int i = 0; i < 3 && follow; ++i) chi[i] = followed(vertices(K, i));
+  const double zero = follow ? -noise : 0;
   int below = 0;
+  double of_followed = 0;
   const PointsOf points(deviation.quadrature, place);
   for (int q = 0; q < points.count; ++q) {
     const double xi = points.xi(q, 0), eta = points.xi(q, 1), barycentric[3] = {1 - xi - eta, xi, eta};
     const GlobalIndex at = points.first + q;
-    const double value = functions.B.value(gap, barycentric) + deviation.at_points(at, 0);
+    const double D = deviation.at_points(at, 0), part = chi[0] * barycentric[0] + chi[1] * barycentric[1] + chi[2] * barycentric[2];
+    const double value = functions.B.value(gap, barycentric) + (1 - part) * D;
     if (counts && value > 0) move.contact += points.weight(q) * value * density.value(a, xi, eta);
-    if (value >= 0) continue;
-    ++below;
-    double slope[3], square = 0;
-    functions.B.gradient(gap, barycentric, slope);
+    const bool closes = value < zero;
+    if (!closes && !follow) continue;
+    below += closes ? 1 : 0;
+    // s follows part D, and is moved back by what is left below zero: together by -(gap + D) there
+    double slope[3] = {0, 0, 0}, square = 0;
+    if (closes) functions.B.gradient(gap, barycentric, slope);
+    else
+      for (int i = 0; i < 3; ++i) slope[i] = chi[i] * D;
     for (int d = 0; d < 2; ++d) {
-      double g = deviation.at_points(at, 1 + d);
+      double g = (closes ? 1 : part) * deviation.at_points(at, 1 + d);
       for (int i = 0; i < 3; ++i) g += slope[i] * geometry.gradient[i][d];
       square += g * g;
     }
-    move.square += 2 * geometry.area * points.weight(q) * square;
+    (closes ? move.square : of_followed) += 2 * geometry.area * points.weight(q) * square;
   }
   // the points miss the zero line by up to their distance
   if (below < points.count) move.square *= 1 + 2 / std::sqrt(static_cast<double>(points.count));
+  move.square += of_followed;
   return move;
 }
 
@@ -93,20 +103,28 @@ KOKKOS_FUNCTION bool FeasibleParts::moves(int K, const double* gap) const {
 
 KOKKOS_FUNCTION void FeasibleParts::operator()(int K) const {
   const int n = functions.size();
-  // s_c -> s_N: the change of each membrane and the gap that is left, at the nodes; then up to the majorant
-  double change[2][most], node_gap[most], raise[most];
-  bool closed = false, raised = false;
+  // s_c -> s_N: the change of each membrane and the gap that is left, at the nodes; then up to the majorant and together
+  double change[2][most], further[2][most], node_gap[most];
+  bool ordered = false, goes_on = false;
   for (int l = 0; l < n; ++l) {
     const LocalIndex e = of_cells(K, l);
     const double open = s_c[0](e) - s_c[1](e), below = open < 0 ? -open : 0, share = theta.extent(0) > 0 ? theta(e) : apart[0];
     node_gap[l] = open < 0 ? 0 : open;
     change[0][l] = share * below;
     change[1][l] = -(1 - share) * below;
-    closed = closed || open < 0;
+    ordered = ordered || open < 0;
     const double above = s_c[1](e) + node_gap[l] - floor(e);
-    raise[l] = above < 0 ? -above : 0;
+    further[0][l] = above < 0 ? -above : 0;
+    further[1][l] = 0;
     if (majorant.extent(0) > 0) node_gap[l] = above < 0 ? 0 : above;
-    raised = raised || raise[l] > 0;
+    const int corner = l - first_vertex;
+    if (closed.extent(0) > 0 && corner >= 0 && corner < 3) {
+      const double by = part_closed(node_gap[l], closed(vertices(K, corner)));
+      further[0][l] -= share * by;
+      further[1][l] = (1 - share) * by;
+      node_gap[l] -= by;
+    }
+    goes_on = goes_on || further[0][l] != 0 || further[1][l] != 0;
   }
   const mesh::CellGeometry geometry = mesh::cell_geometry(x, vertices, K);
   double c[most];
@@ -115,15 +133,16 @@ KOKKOS_FUNCTION void FeasibleParts::operator()(int K) const {
     return energy(alpha, K, geometry, c);
   };
   double nodes2 = 0;
-  for (int alpha = 0; closed && alpha < count; ++alpha) nodes2 += square(alpha, change[alpha]);
-  double raise2 = 0;
-  if (raised) {  // over an obstacle only
-    raise2 = square(0, raise);
-    for (int l = 0; l < n; ++l) change[0][l] += raise[l];
+  for (int alpha = 0; ordered && alpha < count; ++alpha) nodes2 += square(alpha, change[alpha]);
+  double further2 = 0, polynomial2 = goes_on ? 0 : nodes2;
+  for (int alpha = 0; goes_on && alpha < count; ++alpha) {
+    further2 += square(alpha, further[alpha]);
+    for (int l = 0; l < n; ++l) change[alpha][l] += further[alpha][l];
+    polynomial2 += square(alpha, change[alpha]);
   }
 
   // u_h -> s_c
-  double averages2 = 0, polynomial2 = raised ? square(0, change[0]) : nodes2;
+  double averages2 = 0;
   if (of_cells_u.extent(0) > 0) {
     polynomial2 = 0;
     for (int alpha = 0; alpha < count; ++alpha) {
@@ -133,9 +152,9 @@ KOKKOS_FUNCTION void FeasibleParts::operator()(int K) const {
         total[l] = change[alpha][l] += jump[l];
       }
       averages2 += square(alpha, jump);
-      if (closed || raised) polynomial2 += square(alpha, total);
+      if (ordered || goes_on) polynomial2 += square(alpha, total);
     }
-    if (!closed && !raised) polynomial2 = averages2;
+    if (!ordered && !goes_on) polynomial2 = averages2;
   }
 
   // s_N -> s: the lift, exactly, and what is moved apart
@@ -157,7 +176,7 @@ KOKKOS_FUNCTION void FeasibleParts::operator()(int K) const {
 
   whole(K) = (polynomial2 > 0 ? std::sqrt(polynomial2) : 0) + moved;
   at_nodes(K) = std::sqrt(nodes2);
-  rest(K) = std::sqrt(lift2) + moved + std::sqrt(averages2) + std::sqrt(raise2);
+  rest(K) = std::sqrt(lift2) + moved + std::sqrt(averages2) + std::sqrt(further2);
   contact(K) = move.contact + (counts ? contact_of_excess(K) : 0);
 }
 

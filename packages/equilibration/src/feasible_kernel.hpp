@@ -19,6 +19,7 @@ struct Deviation {
   method::CellQuadrature quadrature;  ///< on the places
   View<const double*> bound;          ///< of |D| in the cell
   View<const double* [3]> at_points;  ///< D and its derivatives
+  View<const bool* [3]> on_held;      ///< (place, i): whether D is more than round-off on face i, which is held
   bool of_obstacle = false;           ///< psi is more than psi_I in some cell of some rank
   KOKKOS_FUNCTION LocalIndex operator()(LocalIndex K) const { return place.extent(0) == 0 ? -1 : place(K); }
 };
@@ -50,8 +51,11 @@ struct FeasibleParts {
   double apart[2];                     ///< how the pointwise move is split; they sum to 1
   View<const double*> move_tension;    ///< the largest of sum_alpha mu_alpha apart_alpha² in the cell; of length 0: its constant value
   double constant_move_tension;
-  double noise;  ///< gaps below are round-off: bounded without being cut up
-  double small;  ///< what need not be bounded closely in a cell: of the square of the move, and of twice the contact term
+  int first_vertex;              ///< functions of vertices: first_vertex + i
+  View<const double*> closed;    ///< by vertex: gaps up to that are closed there; of length 0: none
+  View<const double*> followed;  ///< by vertex: the part of D that is taken away there; of length 0: nothing
+  double noise;                  ///< gaps below are round-off: bounded without being cut up
+  double small;                  ///< what need not be bounded closely in a cell: of the square of the move, and of twice the contact term
 
   CellEntries of_cells_u;  ///< of u; of length 0: u = s_c
   Kokkos::View<const double*> u[2];
@@ -70,7 +74,7 @@ struct FeasibleParts {
  private:
   static constexpr int most = reference::max_functions;
 
-  /// ∫_{g<0} |grad g|² of the gap g in a cell, and the integral of the density times max(g, 0).
+  /// Of the gap g in a cell: the square of what it is moved by, pointwise, and the integral of the density times what it is then.
   struct Move {
     double square = 0, contact = 0;
   };
@@ -82,6 +86,17 @@ struct FeasibleParts {
   KOKKOS_FUNCTION double stiffness(int K) const { return move_tension.extent(0) > 0 ? move_tension(K) : constant_move_tension; }
   KOKKOS_FUNCTION Move move_polynomial(int K, const mesh::CellGeometry& geometry, const double* gap, bool counts) const;
   KOKKOS_FUNCTION Move move_pointwise(int K, LocalIndex place, const mesh::CellGeometry& geometry, const double* gap, bool counts) const;
+  /// What is taken of a gap: all of it up to `most`, less and less up to twice as much, and nothing of larger ones.
+  KOKKOS_FUNCTION static double part_closed(double gap, double most) {
+    const double rest = 2 * most - gap, part = gap < rest ? gap : rest;
+    return part > 0 ? part : 0;
+  }
+  /// Whether D is followed in some corner of a cell.
+  KOKKOS_FUNCTION bool follows(int K) const {
+    for (int i = 0; i < 3 && followed.extent(0) > 0; ++i)
+      if (followed(vertices(K, i)) > 0) return true;
+    return false;
+  }
   /// What s is to be above at a node.
   KOKKOS_FUNCTION double floor(LocalIndex e) const { return majorant.extent(0) > 0 ? majorant(e) : s_c[1](e); }
   /// The integral of the density times what the majorant is above the obstacle.

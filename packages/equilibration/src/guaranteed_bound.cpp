@@ -96,7 +96,7 @@ complementarity::Estimate GuaranteedBound::operator()(const Iterate& iterate) {
     in.equilibrate(iterate, alpha, cut_off);  // R_lin = (-1)^alpha D min(X3, 0)
     cut_off.scale(-1);
   }
-  in.feasible->evaluate(iterate.u, in.lambda, in.q, in.parts, negligible * in.mean_flux_term());
+  in.feasible->evaluate(iterate.u, in.lambda, in.q, in.parts, negligible * in.mean_flux_term(), FeasiblePair::Gaps::pressed);
   in.contact_at_points(above, *iterate.gap);
   return in.sum_up();
 }

@@ -282,9 +282,11 @@ void Condensation::set_matrix(const FillLocalMatrices& local) {
       Kokkos::parallel_reduce("thixis::method::eliminate", Kokkos::RangePolicy<Execution>(0, count),
                               Eliminate{d.elements, first, d.kept, A, d.factors}, Kokkos::Min<LocalIndex>(singular));
       if (singular != none)
-        throw core::Error(core::ExitCode::internal,
-                          fmt::format("The interior unknowns of element {} can not be eliminated: their matrix is {}.", singular,
-                                      d.factors.symmetric ? "not positive definite" : "singular"));
+        throw core::InputError(
+            fmt::format("mesh/refinements: the interior unknowns of element {} can not be eliminated, since their matrix is {}: a tension "
+                        "that varies by too many orders of magnitude inside a cell does that; write finer cells, a lower method/degree, "
+                        "or method/name = fem.",
+                        singular, d.factors.symmetric ? "not positive definite" : "singular"));
       scatter(d.remaining, first, A, *d.matrix);
     });
   });

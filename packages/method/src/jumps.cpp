@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "thixis/mesh/remoteness.hpp"
+
 namespace thixis::method {
 namespace {
 
@@ -99,7 +101,9 @@ class Search {
       for (std::size_t i = 0; i < lattice_.size(); ++i) meet(lattice_[i], of_lattice[i]);
       for (int q = block.offset(k); q < block.offset(k + 1); ++q)
         meet({1 - block.xi(q, 0) - block.xi(q, 1), block.xi(q, 0), block.xi(q, 1)}, at_rule(q));
-      if (way.difference() <= round_off * std::max(std::abs(range.low), std::abs(range.high))) continue;
+      const auto vertex = [&](int a, int d) { return quadrature_.coordinates(quadrature_.cell_vertices(block.cell(k), a), d); };
+      const double by_place = mesh::remoteness(3, vertex) * (range.high - range.low);
+      if (way.difference() <= round_off * std::max({std::abs(range.low), std::abs(range.high), v_.cancelled(), by_place})) continue;
       first_.push_back(way.difference());
       ways_.push_back(way);
     }

@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "thixis/core/error.hpp"
 #include "thixis/mesh/host.hpp"
+#include "thixis/mesh/remoteness.hpp"
 
 namespace thixis::models {
 namespace {
@@ -43,13 +45,14 @@ class Examination {
         }
       const auto at = [n](int i, int j) { return i * (n + 1) - i * (i - 1) / 2 + j; };
       const auto f = values(*field, x, y);
+      const double known = known_as(*field, x, y, f);
       for (int a = 0; a <= n && !f.empty(); ++a) {
         const auto in_a = binomials(a), in_b = binomials(n - a);
         double difference = 0, size = 0;
         for (int i = 0; i <= a; ++i)
           for (int j = 0; j <= n - a; ++j) {
             difference += in_a[i] * in_b[j] * f[at(i, j)];
-            size += std::abs(in_a[i] * in_b[j] * f[at(i, j)]);
+            size += std::abs(in_a[i] * in_b[j]) * std::max(std::abs(f[at(i, j)]), known);
           }
         judge(name, n - 1, difference, size, "in the cell", x[at(0, 0)], y[at(0, 0)]);
       }
@@ -69,10 +72,11 @@ class Examination {
         y.push_back((1 - s) * host_.coordinates(a, 1) + s * host_.coordinates(b, 1));
       }
       const auto f = values(*field, x, y);
+      const double known = known_as(*field, x, y, f);
       double difference = 0, size = 0;
       for (std::size_t i = 0; i < f.size(); ++i) {
         difference += factor[i] * f[i];
-        size += std::abs(factor[i] * f[i]);
+        size += std::abs(factor[i]) * std::max(std::abs(f[i]), known);
       }
       judge(name, n - 1, difference, size, "on the face", x[0], y[0]);
     }
@@ -93,6 +97,14 @@ class Examination {
     }
     field.evaluate(points, t_, f.data());
     return f;
+  }
+  /// Values have the rounding of numbers of this size.
+  static double known_as(const scene::Field& field, const std::vector<double>& x, const std::vector<double>& y,
+                         const std::vector<double>& f) {
+    if (f.empty()) return 0;
+    const auto [low, high] = std::minmax_element(f.begin(), f.end());
+    const double by_place = mesh::remoteness(static_cast<int>(x.size()), [&](int i, int d) { return d == 0 ? x[i] : y[i]; });
+    return std::max(field.cancelled(), by_place * (*high - *low));
   }
   static void judge(const std::string& name, int degree, double difference, double size, const char* where, double x, double y) {
     if (std::abs(difference) > visible * size)

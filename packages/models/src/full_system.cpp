@@ -48,7 +48,8 @@ struct Fill {
   LocalMatrix S[2];
   double factor[2];
   Layout at;
-  Values D, a, b;
+  double weight[2], contact_weight;
+  Values D, a, b, kappa;
   LocalMatrix A;  ///< out, overwritten
 
   KOKKOS_FUNCTION void operator()(LocalIndex l) const {
@@ -58,45 +59,61 @@ struct Fill {
     for (int field = 0; field < m; ++field) {
       std::size_t k = row_begin(at, row_map, l, field);
       for (std::size_t e = row_map(l); e < row_map(l + 1); ++e) {
-        const double value = factor[field] * S[field].values(e);
+        const double value = weight[field] * factor[field] * S[field].values(e);
         if (S[0].graph.entries(e) != l || !point) {
           A.values(k++) = value;
           continue;
         }
         for (int other = 0; other < m; ++other) A.values(k++) = other == field ? value : 0;
-        A.values(k++) = field == 0 ? -D(l, 0) : D(l, 0);
+        A.values(k++) = weight[field] * (field == 0 ? -D(l, 0) : D(l, 0));
       }
     }
     if (!point) return;
     std::size_t k = row_begin(at, row_map, l, m);
-    for (int field = 0; field < m; ++field) A.values(k++) = field == 0 ? a(l, 0) : -a(l, 0);
-    A.values(k) = b(l, 0);
+    const double w = contact_weight * kappa(l, 0);
+    for (int field = 0; field < m; ++field) A.values(k++) = w * (field == 0 ? a(l, 0) : -a(l, 0));
+    A.values(k) = w * b(l, 0);
   }
 };
 
 class FullSystem final : public LinearizedSystem {
  public:
-  FullSystem(const MembraneOperator& membranes, const algebra::LinearParams& params, const algebra::MapPtr& map,
-             const Teuchos::RCP<const algebra::MultiVector>& coordinates)
-      : membranes_(membranes), coordinates_(coordinates), solver_(params), A_(Teuchos::rcp(new algebra::Matrix(make_graph(map)))) {
+  FullSystem(const MembraneOperator& membranes, const MembraneMeasure& measure, const algebra::LinearParams& params,
+             const algebra::MapPtr& map, const Teuchos::RCP<const algebra::MultiVector>& coordinates)
+      : membranes_(membranes),
+        measure_(measure),
+        coordinates_(coordinates),
+        solver_(params),
+        A_(Teuchos::rcp(new algebra::Matrix(make_graph(map)))) {
     A_->fillComplete();
   }
 
   void linearize(const algebra::Vector& a, const algebra::Vector& b) override {
     const auto read = [](const algebra::Vector& v) { return v.getLocalViewDevice(Tpetra::Access::ReadOnly); };
     const auto D = read(*membranes_.pairing);
-    Fill<decltype(D)> fill{
-        {}, {membranes_.factor[0], membranes_.factor[1]}, layout(membranes_), D, read(a), read(b), A_->getLocalMatrixDevice()};
+    Fill<decltype(D)> fill{{},
+                           {membranes_.factor[0], membranes_.factor[1]},
+                           layout(membranes_),
+                           {measure_.weight(0), measure_.weight(1)},
+                           measure_.contact_weight(),
+                           D,
+                           read(a),
+                           read(b),
+                           read(measure_.stiffness()),
+                           A_->getLocalMatrixDevice()};
     for (int alpha = 0; alpha < membranes_.count; ++alpha) fill.S[alpha] = membranes_.matrix[alpha]->getLocalMatrixDevice();
     Kokkos::parallel_for("thixis::models::full_system", Kokkos::RangePolicy<Execution>(0, fill.S[0].numRows()), fill);
     solver_.set_matrix(A_, membranes_.count + 1, coordinates_);
   }
 
   algebra::LinearReport solve(const algebra::Vector& R, algebra::Vector& dX, const algebra::LinearStop& stop) override {
-    algebra::Vector minus_R(R, Teuchos::Copy);
-    minus_R.scale(-1);
+    Fields minus_R(membranes_, R);
+    for (int alpha = 0; alpha < membranes_.count; ++alpha) minus_R.u.getVectorNonConst(alpha)->scale(-measure_.weight(alpha));
+    minus_R.lambda.elementWiseMultiply(-measure_.contact_weight(), measure_.stiffness(), minus_R.lambda, 0);
+    algebra::Vector right_side(R.getMap());
+    join(minus_R, right_side);
     dX.putScalar(0);
-    return solver_.solve(minus_R, dX, stop);
+    return solver_.solve(right_side, dX, stop);
   }
 
   GlobalIndex nonzeros() const override { return A_->getGlobalNumEntries(); }
@@ -117,6 +134,7 @@ class FullSystem final : public LinearizedSystem {
   }
 
   const MembraneOperator& membranes_;
+  const MembraneMeasure& measure_;
   Teuchos::RCP<const algebra::MultiVector> coordinates_;
   algebra::Solver solver_;
   algebra::MatrixPtr A_;
@@ -124,10 +142,10 @@ class FullSystem final : public LinearizedSystem {
 
 }  // namespace
 
-std::unique_ptr<LinearizedSystem> make_full_system(const MembraneOperator& membranes, const algebra::LinearParams& params,
-                                                   const algebra::MapPtr& map,
+std::unique_ptr<LinearizedSystem> make_full_system(const MembraneOperator& membranes, const MembraneMeasure& measure,
+                                                   const algebra::LinearParams& params, const algebra::MapPtr& map,
                                                    const Teuchos::RCP<const algebra::MultiVector>& coordinates) {
-  return std::make_unique<FullSystem>(membranes, params, map, coordinates);
+  return std::make_unique<FullSystem>(membranes, measure, params, map, coordinates);
 }
 
 }  // namespace thixis::models

@@ -18,6 +18,8 @@
 namespace thixis::models {
 namespace {
 
+constexpr double smallest_tension = 1e-60;  // whose reciprocal is no more than scene::largest_value
+
 struct PointList {
   std::vector<double> x, y;
   void add(double px, double py) {
@@ -58,18 +60,25 @@ void check_jumps(const scene::MembraneScene& scene, const Boundary& boundary, co
   const auto host = mesh::on_host(mesh);
   std::vector<std::vector<double>> values(tags * scene.count);
   std::vector<PointList> ends(tags);
-  double largest = 0;
+  double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
   mesh.comm.together([&] {
     for (std::size_t tag = 0; tag < tags; ++tag) {
       if (!boundary.dirichlet[tag]) continue;
       ends[tag] = points_on(mesh, host, tag, {0, 1});
       for (int alpha = 0; alpha < scene.count; ++alpha) {
         auto& found = values[tag * scene.count + alpha] = ends[tag].evaluate(*boundary.values[alpha].dirichlet[tag], t);
-        for (const double value : found) largest = std::max(largest, std::abs(value));
+        for (const double value : found) {
+          lowest = std::min(lowest, value);
+          highest = std::max(highest, value);
+        }
       }
     }
   });
-  const double allowed = 1e-8 * mesh.comm.max(largest) + 1e-12;
+  lowest = mesh.comm.min(lowest);
+  highest = mesh.comm.max(highest);
+  if (lowest > highest) return;
+  const double rounding = 1e-14 * std::max(std::abs(lowest), std::abs(highest));
+  const double allowed = 1e-8 * (highest - lowest) + rounding;
   struct First {
     std::size_t tag, end;  ///< tag = tags: none yet
   };
@@ -124,9 +133,12 @@ void check_data(const scene::MembraneScene& scene, const method::MethodParams& m
     });
   });
   for (int alpha = 0; alpha < scene.count; ++alpha)
-    if (const double tension = mesh.comm.min(lowest[alpha]); !(tension >= 1 / scene::largest_value))
-      throw core::InputError(fmt::format("scene/data/{}: the tension falls to {:.6g}; give one that is positive everywhere.",
-                                         named(scene, "mu", alpha), tension));
+    if (const double tension = mesh.comm.min(lowest[alpha]); !(tension >= smallest_tension))
+      throw core::InputError(fmt::format("scene/data/{}: the tension falls to {:.6g}{}.", named(scene, "mu", alpha), tension,
+                                         tension > 0 ? fmt::format(", too small to compute with; write the data in units in which it is at "
+                                                                   "least {:g}",
+                                                                   smallest_tension)
+                                                     : "; give one that is positive everywhere"));
 }
 
 /// The largest divisor of n up to 32: every so many points of a generator's boundary are some of those of n.

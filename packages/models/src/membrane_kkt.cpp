@@ -10,6 +10,8 @@
 namespace thixis::models {
 namespace {
 
+constexpr double smallest_digit = 1e-6;  // that is judged
+
 using algebra::Vector;
 using method::Coefficients;
 
@@ -33,21 +35,13 @@ Extent extent_of(const mesh::Mesh& mesh) {
   return {std::hypot(box[2] + box[0], box[3] + box[1]), mesh.comm.sum(area)};
 }
 
-/// Largest absolute value. Collective.
-double largest(const Coefficients& u, const core::Comm& comm) {
-  const auto host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), u);
-  double value = 0;
-  for (std::size_t i = 0; i < host.extent(0); ++i) value = std::max(value, std::abs(host(i)));
-  return comm.max(value);
-}
-
-/// v / D at the contact points.
-Teuchos::RCP<Vector> over_pairing(const Vector& v, const Vector& pairing) {
-  auto quotient = Teuchos::rcp(new Vector(pairing.getMap()));
-  const auto in = algebra::host_view(v), D = algebra::host_view(pairing);
-  const auto out = algebra::host_overwrite(*quotient);
-  for (std::size_t l = 0; l < out.extent(0); ++l) out(l) = in(l) / D(l);
-  return quotient;
+/// The part of v at the contact points.
+Teuchos::RCP<Vector> at_points(const Vector& v, const MembraneOperator& membranes) {
+  auto part = Teuchos::rcp(new Vector(membranes.points()));
+  const auto in = algebra::host_view(v);
+  const auto out = algebra::host_overwrite(*part);
+  for (std::size_t l = 0; l < out.extent(0); ++l) out(l) = in(l);
+  return part;
 }
 
 /// Largest tension at the vertices. Collective.
@@ -80,29 +74,56 @@ Vector force_alone(const MembraneSolution& solution, int alpha) {
   return F;
 }
 
+/// Forces that matter at one point: those on a membrane, those that contact passes on.
+struct PointForces {
+  std::vector<double> on_membrane;
+  double through_contact = 0;
+};
+
+/// `largest`: what is there at some point. Whatever it is, the force counts that bends a membrane to its height over the width of the
+/// domain; what drives the gap acts on both; round-off counts as nothing.
+PointForces point_forces(const MembraneSolution& solution, std::vector<double> largest) {
+  const MembraneOperator& membranes = solution.problem.membranes();
+  const MembraneMeasure& measure = solution.problem.measure();
+  const Extent domain = extent_of(solution.space.mesh());
+  const auto points = static_cast<double>(std::max<std::size_t>(membranes.points()->getGlobalNumElements(), 1));
+  PointForces forces;
+  for (int alpha = 0; alpha < membranes.count; ++alpha) {
+    const double curvature = measure.displacement(alpha, solution.x.u) / (domain.width * domain.width);
+    largest[alpha] =
+        std::max(largest[alpha], largest_tension(*solution.scene.tension[alpha], solution.space.mesh()) * curvature * domain.area / points);
+    forces.through_contact += (membranes.count == 1 ? 1 : membranes.theta[1 - alpha]) * largest[alpha];
+  }
+  for (int alpha = 0; alpha < membranes.count; ++alpha)
+    forces.on_membrane.push_back(std::max(largest[alpha], forces.through_contact) +
+                                 measure.round_off(alpha, solution.x.u) / smallest_digit);
+  forces.through_contact = *std::min_element(forces.on_membrane.begin(), forces.on_membrane.end());
+  const auto or_one = [](double& force) { force = force > 0 ? force : 1; };  // nothing acts: all is zero, exactly
+  or_one(forces.through_contact);
+  std::for_each(forces.on_membrane.begin(), forces.on_membrane.end(), or_one);
+  return forces;
+}
+
 }  // namespace
 
 complementarity::KktData kkt_data(const MembraneSolution& solution) {
   const auto& [scene, space, problem, body, x, u, t, rate] = solution;
   const MembraneOperator& membranes = problem.membranes();
-  const Vector& D = space.pairing();
+  const MembraneMeasure& measure = problem.measure();
+  const LocalIndex points = algebra::local_size(*membranes.points());
   complementarity::KktData data;
   auto gap_l = Teuchos::rcp(new Vector(membranes.points()));
   gap(membranes, x.u, *gap_l);
   data.gap = gap_l;
-  data.claimed = Teuchos::rcp(new Vector(x.lambda, Teuchos::Copy));
+  auto claimed = Teuchos::rcp(new Vector(membranes.points()));
+  claimed->elementWiseMultiply(1, space.pairing(), x.lambda, 0);
+  data.claimed = claimed;
   data.between_nodes =
       scene.count == 1 ? space.penetration(u[0], scene.obstacle.get(), t) : space.penetration(difference(u[0], u[1]), nullptr, t);
 
-  const Extent domain = extent_of(space.mesh());
-  const auto points = static_cast<double>(std::max<std::size_t>(membranes.points()->getGlobalNumElements(), 1));
-  const double mean_pairing = membranes.points()->getGlobalNumElements() > 0 ? D.meanValue() : 1;
-  const double per_area =
-      domain.area / points / mean_pairing;  // of X3: about 1 for nodal values, |K| over the points of a cell for moments
-  double size = 0, softest = std::numeric_limits<double>::infinity();
-  data.multiplier_scale = 0;
+  std::vector<double> largest, unbalanced;
   for (int alpha = 0; alpha < scene.count; ++alpha) {
-    // lambda_1 = (a(u1, psi) - F1) / D,  lambda_2 = (F2 - a(u2, psi)) / D, with (d_t u, psi) beside a(u, psi) in time
+    // D lambda_1 = a(u1, psi) - F1,  D lambda_2 = F2 - a(u2, psi), with (d_t u, psi) beside a(u, psi) in time
     Vector defect(space.map()), inertia(space.map());
     space.forces(*scene.tension[alpha], u[alpha], defect);
     if (rate[alpha].extent(0) > 0) {
@@ -111,27 +132,27 @@ complementarity::KktData kkt_data(const MembraneSolution& solution) {
     }
     const double sign = alpha == 0 ? 1 : -1;
     defect.update(-sign, *body[alpha], sign);
-    const auto multiplier = over_pairing(defect, D);
-    data.equilibrium.push_back(multiplier);
-    data.unbalanced = std::max(data.unbalanced, largest_elsewhere(defect, algebra::local_size(*membranes.points())) / mean_pairing);
-    // what is large: the force per area that is there, …
-    data.multiplier_scale = std::max({data.multiplier_scale, multiplier->normInf(),
-                                      over_pairing(force_alone(solution, alpha), D)->normInf(), over_pairing(inertia, D)->normInf()});
-    softest = std::min(softest, largest_tension(*scene.tension[alpha], space.mesh()));
-    size = std::max(size, largest(u[alpha], space.mesh().comm));
+    const auto pressed = at_points(defect, membranes);
+    data.equilibrium.push_back(pressed);
+    unbalanced.push_back(largest_elsewhere(defect, points));
+    largest.push_back(std::max(
+        {pressed->normInf(), at_points(force_alone(solution, alpha), membranes)->normInf(), at_points(inertia, membranes)->normInf()}));
   }
-  // … and the one that bends the softer membrane to such heights over the width of the domain
-  data.multiplier_scale = std::max(data.multiplier_scale, softest * size / (domain.width * domain.width) * per_area);
-  if (!(data.multiplier_scale > 0)) data.multiplier_scale = 1;
-  // … and a gap: the heights that are there, and what such a force opens at one point
-  Vector s(membranes.points());
-  problem.scaling(s);
-  Vector inverse_D(membranes.points()), inverse_s(membranes.points());
-  inverse_D.reciprocal(D);
-  inverse_s.reciprocal(s);
-  data.smallest_weight = 1 / std::max(inverse_D.normInf(), inverse_s.normInf());
-  data.gap_scale = std::max(size, s.normInf() * data.multiplier_scale);
+  const PointForces forces = point_forces(solution, largest);
+  data.body_scale = forces.on_membrane;
+  data.multiplier_scale = forces.through_contact;
+  // a gap: the way of the membranes, and what such a force opens at one point
+  Vector softness(membranes.points());
+  softness.reciprocal(measure.stiffness());
+  data.gap_scale = std::max(measure.displacement(x.u), softness.normInf() * forces.through_contact);
+  for (int alpha = 0; alpha < scene.count; ++alpha)
+    data.gap_scale += std::numeric_limits<double>::epsilon() / smallest_digit * x.u.getVector(alpha)->normInf();
   if (!(data.gap_scale > 0)) data.gap_scale = 1;
+  data.of_residual = softness.normInf() / (measure.contact_weight() * data.gap_scale);
+  for (int alpha = 0; alpha < scene.count; ++alpha) {
+    data.unbalanced = std::max(data.unbalanced, unbalanced[alpha] / data.body_scale[alpha]);
+    data.of_residual = std::max(data.of_residual, 1 / (measure.weight(alpha) * data.body_scale[alpha]));
+  }
   return data;
 }
 

@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
+#include "heights.hpp"
 #include "thixis/core/error.hpp"
+#include "thixis/core/text.hpp"
 #include "thixis/method/values_at.hpp"
 
 namespace thixis::models {
@@ -49,9 +52,9 @@ std::vector<double> values_of(const scene::Field& field, const std::vector<Probe
 
 }  // namespace
 
-MembraneLevel::MembraneLevel(const scene::MembraneScene& scene, const method::SpaceFactory& make_space, const method::MethodParams& method,
-                             const algebra::LinearParams& linear, const mesh::Mesh& mesh)
-    : scene_(scene), method_(method), boundary_(boundary_of(scene, mesh)) {
+MembraneLevel::MembraneLevel(const scene::MembraneScene& scene, double origin, const method::SpaceFactory& make_space,
+                             const method::MethodParams& method, const algebra::LinearParams& linear, const mesh::Mesh& mesh)
+    : scene_(scene), origin_(origin), method_(method), boundary_(boundary_of(scene, mesh)) {
   space_ = make_space(mesh, {boundary_.dirichlet, scene.interface_level_set, method});
   steady_interface_ = steady({scene.interface_level_set});
   for (int alpha = 0; alpha < scene.count; ++alpha) {
@@ -65,7 +68,52 @@ MembraneLevel::MembraneLevel(const scene::MembraneScene& scene, const method::Sp
   nothing_ = Coefficients("thixis::models::nothing", lift_[0].extent(0));
   set_loads();
   problem_ = std::make_unique<MembraneProblem>(membrane_operator(scene, *space_, method, lift_, body_), linear, space_->coordinates());
+  require_stiffness();
   if (scene.count == 1) obstacle_ = space_->complete(*problem_->membranes().obstacle, lift_of_obstacle());
+  measure_from_rest();
+}
+
+/// Penalties take a tension for nearly constant in each cell. Where it is not, a function may have negative energy: what shows it on the
+/// diagonal is no stiffness, by which anything could be measured.
+void MembraneLevel::require_stiffness() const {
+  for (int alpha = 0; alpha < scene_.count; ++alpha) {
+    double least = std::numeric_limits<double>::infinity();
+    {
+      const auto diagonal = algebra::host_view(problem_->measure().diagonal(alpha));
+      for (std::size_t l = 0; l < diagonal.extent(0); ++l) least = std::min(least, diagonal(l));
+    }
+    least = space_->mesh().comm.min(least);
+    if (least > 0) continue;
+    throw core::InputError(
+        fmt::format("method/penalty: {} is too small for the tension {}, which varies by orders of magnitude inside a cell: an entry of "
+                    "the diagonal is "
+                    "{:.2e}; write a larger one, finer cells (mesh/refinements), method/variant = nipg, or method/name = fem.",
+                    core::to_text(method_.penalty), scene_.count == 1 ? "mu" : fmt::format("mu{}", alpha + 1), least));
+  }
+}
+
+void MembraneLevel::measure_from_rest() {
+  const Heights heights = heights_of(scene_, space_->mesh(), time_);
+  algebra::MultiVector u(space_->map(), scene_.count);
+  for (int alpha = 0; alpha < scene_.count; ++alpha) {
+    rest_[alpha] = heights.rest(alpha);
+    space_->interpolate(*scene::constant(rest_[alpha]), 0, *u.getVectorNonConst(alpha));
+  }
+  problem_->measure_from({&u, rest_, scene_.count == 1 ? reach(std::min(heights.low[0], rest_[0])) : 0});
+}
+
+void MembraneLevel::measure_from(const algebra::MultiVector& u) { problem_->measure_from({&u, rest_, 0}, body_); }
+
+/// How low forces could bring the membrane, roughly: the sum of all of them over its tension, a length, below where it is held.
+double MembraneLevel::reach(double low) const {
+  auto unheld = boundary_.values[0];
+  for (auto& value : unheld.dirichlet)
+    if (value) value = scene::constant(0);
+  Vector force(space_->map());
+  space_->load(*scene_.tension[0], *scene_.force[0], unheld, time_, force);
+  Vector softness(space_->map());
+  softness.reciprocal(problem_->measure().diagonal(0));
+  return low - 4 * force.norm1() * softness.normInf();
 }
 
 void MembraneLevel::set_lifts() {
@@ -120,6 +168,11 @@ std::vector<output::CheckpointBlock> MembraneLevel::save(const Vector& X, const 
   };
   for (int alpha = 0; alpha < scene_.count; ++alpha) add(displacement(scene_.count, alpha), *x.u.getVector(alpha));
   add("lambda", x.lambda);
+  if (origin_ != 0) {
+    const bool root = space_->mesh().comm.root();
+    blocks.push_back({"origin" + suffix, root ? std::vector<GlobalIndex>{0} : std::vector<GlobalIndex>{},
+                      root ? std::vector<double>{origin_} : std::vector<double>{}});
+  }
   return blocks;
 }
 
@@ -134,6 +187,12 @@ Teuchos::RCP<Vector> MembraneLevel::restore(const output::StoredCheckpoint& stor
   };
   for (int alpha = 0; alpha < scene_.count; ++alpha) fetch(displacement(scene_.count, alpha), *x.u.getVectorNonConst(alpha));
   fetch("lambda", x.lambda);
+  const double origin = stored.size("origin" + suffix) < 0 ? 0 : stored.fetch_finite("origin" + suffix, {0}).front();
+  if (origin != origin_) {
+    Vector by(space_->map());
+    space_->interpolate(*scene::constant(origin - origin_), 0, by);
+    for (int alpha = 0; alpha < scene_.count; ++alpha) x.u.getVectorNonConst(alpha)->update(1, by, 1);
+  }
   return joined(x);
 }
 
@@ -146,7 +205,11 @@ std::vector<output::FieldData> MembraneLevel::shown(const Vector& X, const compl
       shown.push_back({name, output::Centre::vertex, values()});
   };
   for (int alpha = 0; alpha < scene_.count; ++alpha)
-    add(displacement(scene_.count, alpha), [&] { return space_->shown(membrane(x, alpha)); });
+    add(displacement(scene_.count, alpha), [&] {
+      auto heights = space_->shown(membrane(x, alpha));
+      for (double& height : heights) height += origin_;
+      return heights;
+    });
   add("lambda", [&] { return space_->shown(space_->multiplier(x.lambda)); });
   add("gap", [&] {
     auto gap = space_->shown(membrane(x, 0));
@@ -181,6 +244,8 @@ std::vector<double> MembraneLevel::values_at(const std::vector<Probe>& probes, c
   columns.push_back(columns[0]);
   const auto below = scene_.count == 2 ? columns[1] : values_of(*scene_.obstacle, probes);
   for (std::size_t i = 0; i < probes.size(); ++i) columns.back()[i] -= below[i];
+  for (int alpha = 0; alpha < scene_.count; ++alpha)
+    for (double& height : columns[alpha]) height += origin_;
   std::vector<double> rows;
   for (std::size_t i = 0; i < probes.size(); ++i)
     for (const auto& column : columns) rows.push_back(column[i]);

@@ -17,9 +17,9 @@ namespace thixis::models {
 /// Membranes on one mesh: the space, the data at one time, the algebraic problem, and what is read of its X.
 class MembraneLevel {
  public:
-  /// At time 0. The scene and the mesh must outlive it. Collective.
-  MembraneLevel(const scene::MembraneScene& scene, const method::SpaceFactory& make_space, const method::MethodParams& method,
-                const algebra::LinearParams& linear, const mesh::Mesh& mesh);
+  /// At time 0. The scene, whose heights are counted from `origin`, and the mesh must outlive it. Collective.
+  MembraneLevel(const scene::MembraneScene& scene, double origin, const method::SpaceFactory& make_space,
+                const method::MethodParams& method, const algebra::LinearParams& linear, const mesh::Mesh& mesh);
 
   const scene::MembraneScene& scene() const { return scene_; }
   int count() const { return scene_.count; }
@@ -47,6 +47,9 @@ class MembraneLevel {
   /// x from the solution on a coarser mesh, which the parent cells of this one belong to.
   Fields from_coarse(const MembraneLevel& coarse, const algebra::Vector& coarse_X) const;
 
+  /// Measures residuals by what acts on the membranes from u°, beside the forces on them. Collective.
+  void measure_from(const algebra::MultiVector& u);
+
   /// X as named values whose ids do not depend on the number of ranks; Dirichlet values are left out. `suffix`: behind the names.
   std::vector<output::CheckpointBlock> save(const algebra::Vector& X, const std::string& suffix = "") const;
   Teuchos::RCP<algebra::Vector> restore(const output::StoredCheckpoint& stored, const std::string& suffix = "") const;
@@ -63,6 +66,9 @@ class MembraneLevel {
   equilibration::ContactProblem contact_problem() const;
 
  private:
+  void require_stiffness() const;
+  void measure_from_rest();
+  double reach(double low) const;
   void set_lifts();
   void set_loads();
   method::Coefficients lift_of_obstacle() const;
@@ -72,9 +78,11 @@ class MembraneLevel {
   std::vector<double> share_of_upper_tension() const;
 
   const scene::MembraneScene& scene_;
+  double origin_;  ///< of heights
   method::MethodParams method_;
   std::unique_ptr<method::Space> space_;
   Boundary boundary_;
+  std::array<double, 2> rest_ = {0, 0};  ///< heights at which the membranes rest at the beginning
   double time_ = 0;
   bool steady_boundary_ = true, steady_loads_ = true, steady_interface_ = true;
   method::Coefficients nothing_, lift_[2], obstacle_;

@@ -5,6 +5,7 @@
 #include "full_system.hpp"
 #include "projected_jacobi.hpp"
 #include "reduced_system.hpp"
+#include "thixis/complementarity/active_set.hpp"
 #include "thixis/core/timer.hpp"
 
 namespace thixis::models {
@@ -50,7 +51,7 @@ struct CloseGap {
 
 MembraneProblem::MembraneProblem(MembraneOperator membranes, const algebra::LinearParams& params,
                                  const Teuchos::RCP<const MultiVector>& coordinates)
-    : membranes_(std::move(membranes)), params_(params), coordinates_(coordinates), map_(membranes_.interlaced()) {
+    : membranes_(std::move(membranes)), measure_(membranes_), params_(params), coordinates_(coordinates), map_(membranes_.interlaced()) {
   if (membranes_.condensed) interior_ = count_interior(*membranes_.condensed, *membranes_.map());
 }
 
@@ -78,17 +79,27 @@ void MembraneProblem::arguments(const Vector& X, Vector& K, Vector& G) const {
 }
 
 void MembraneProblem::scaling(Vector& s) const {
-  Vector diagonal(membranes_.map());
-  s.putScalar(0);
-  for (int alpha = 0; alpha < membranes_.count; ++alpha) {
-    membranes_.matrix[alpha]->getLocalDiagCopy(diagonal);
-    const double factor = membranes_.factor[alpha];
-    const auto S = std::as_const(diagonal).getLocalViewDevice(Tpetra::Access::ReadOnly);
-    const auto D = membranes_.pairing->getLocalViewDevice(Tpetra::Access::ReadOnly);
-    const auto out = s.getLocalViewDevice(Tpetra::Access::ReadWrite);
-    Kokkos::parallel_for(
-        "thixis::models::scaling", Range(0, out.extent_int(0)), KOKKOS_LAMBDA(int l) { out(l, 0) += D(l, 0) / (factor * S(l, 0)); });
-  }
+  const auto D = membranes_.pairing->getLocalViewDevice(Tpetra::Access::ReadOnly);
+  const auto kappa = measure_.stiffness().getLocalViewDevice(Tpetra::Access::ReadOnly);
+  const auto out = s.getLocalViewDevice(Tpetra::Access::OverwriteAll);
+  Kokkos::parallel_for(
+      "thixis::models::scaling", Range(0, out.extent_int(0)), KOKKOS_LAMBDA(int l) { out(l, 0) = D(l, 0) / kappa(l, 0); });
+}
+
+bool MembraneProblem::weights(Vector& w) const {
+  Fields rows(membranes_);
+  for (int alpha = 0; alpha < membranes_.count; ++alpha) rows.u.getVectorNonConst(alpha)->putScalar(measure_.weight(alpha));
+  rows.lambda.update(measure_.contact_weight(), measure_.stiffness(), 0);
+  join(rows, w);
+  return true;
+}
+
+double MembraneProblem::noise(const Vector& X) const { return measure_.round_off(Fields(membranes_, X).u); }
+
+/// Beside what contact forces open at one point: the way of the membranes, since gaps to what is out of reach say nothing.
+double MembraneProblem::gap_size(const Vector& X, const Vector& K, const Vector& G, const Vector& s) const {
+  const Vector touching(K.getMap());
+  return std::max(measure_.displacement(Fields(membranes_, X).u), complementarity::largest_argument(touching, G, s));
 }
 
 void MembraneProblem::insert(const Vector& C, Vector& R) const {
@@ -103,7 +114,8 @@ void MembraneProblem::linearize(const Vector&, const Vector& a, const Vector& b)
   if (!system_) {
     const core::Region region("assembly");
     const bool full = params_.form == algebra::SystemForm::full && !membranes_.condensed;
-    system_ = full ? make_full_system(membranes_, params_, map_, coordinates_) : make_reduced_system(membranes_, params_, coordinates_);
+    system_ = full ? make_full_system(membranes_, measure_, params_, map_, coordinates_)
+                   : make_reduced_system(membranes_, measure_, params_, coordinates_);
   }
   system_->linearize(a, b);
 }
@@ -111,6 +123,7 @@ void MembraneProblem::linearize(const Vector&, const Vector& a, const Vector& b)
 void MembraneProblem::set_inertia(const method::Space& space, double weight) {
   if (!inertia_) inertia_ = std::make_unique<Inertia>(space, membranes_);
   inertia_->set(weight, membranes_);
+  measure_ = MembraneMeasure(membranes_);
   smoother_.reset();
   if (system_) system_->renew();
 }
@@ -165,13 +178,6 @@ void MembraneProblem::make_complementary(Fields& x) const {
       "thixis::models::make_complementary", Range(0, lambda.extent_int(0)), KOKKOS_LAMBDA(int l) {
         if (lambda(l, 0) > 0) close(l);
       });
-}
-
-double MembraneProblem::reference_norm() const {
-  if (membranes_.count == 2) return std::hypot(membranes_.load[0]->norm2(), membranes_.load[1]->norm2());
-  Vector data(*membranes_.load[0], Teuchos::Copy);
-  membranes_.matrix[0]->apply(*membranes_.obstacle, data, Teuchos::NO_TRANS, -membranes_.factor[0], 1);
-  return data.norm2();
 }
 
 GlobalIndex MembraneProblem::unknowns() const {

@@ -1,5 +1,6 @@
 #pragma once
 #include "linearized_system.hpp"
+#include "membrane_measure.hpp"
 #include "projected_jacobi.hpp"
 #include "thixis/complementarity/problem.hpp"
 
@@ -22,8 +23,10 @@ class MembraneProblem final : public complementarity::Problem {
   void insert(const algebra::Vector& C, algebra::Vector& R) const override;
   void linearize(const algebra::Vector& X, const algebra::Vector& a, const algebra::Vector& b) override;
   algebra::LinearReport solve(const algebra::Vector& R, algebra::Vector& dX, const algebra::LinearStop& stop) override;
-  /// |(F, 0)|; over an obstacle |F - S psi|, the data of the equations for u - psi.
-  double reference_norm() const override;
+  bool weights(algebra::Vector& w) const override;
+  double reference_norm() const override { return measure_.reference(); }
+  double noise(const algebra::Vector& X) const override;
+  double gap_size(const algebra::Vector& X, const algebra::Vector& K, const algebra::Vector& G, const algebra::Vector& s) const override;
   void relax(algebra::Vector& X, int sweeps) const override;
 
   /// Takes the round-off of the linear solver out of a solution: lambda_l = 0 at free points, no gap at contact points (K_l <= s_l G_l), so
@@ -38,6 +41,10 @@ class MembraneProblem final : public complementarity::Problem {
   /// zone overshoot, and Newton-min takes that back by one layer of points a step.
   void make_complementary(Fields& x) const;
 
+  /// What residuals are measured by, from the loads that the operator has now; see MembraneMeasure::set. Collective.
+  void measure_from(const Rest& rest, const Teuchos::RCP<algebra::Vector>* body = nullptr) { measure_.set(membranes_, rest, body); }
+  const MembraneMeasure& measure() const { return measure_; }
+
   /// S_alpha <- the stiffness + weight M, M the mass of `space`, which must outlive this. Symbolic work is kept. Collective.
   void set_inertia(const method::Space& space, double weight);
 
@@ -48,6 +55,7 @@ class MembraneProblem final : public complementarity::Problem {
 
  private:
   MembraneOperator membranes_;
+  MembraneMeasure measure_;
   algebra::LinearParams params_;
   Teuchos::RCP<const algebra::MultiVector> coordinates_;
   algebra::MapPtr map_;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "exact_gradient.hpp"
+#include "heights.hpp"
 #include "membrane_checks.hpp"
 #include "membrane_kkt.hpp"
 #include "membrane_level.hpp"
@@ -11,6 +12,7 @@
 #include "thixis/core/timer.hpp"
 #include "thixis/equilibration/guaranteed_bound.hpp"
 #include "thixis/equilibration/published_bound.hpp"
+#include "thixis/scene/heights.hpp"
 
 namespace thixis::models {
 namespace {
@@ -20,12 +22,12 @@ using method::Coefficients;
 
 class MembraneDiscretization final : public Discretization {
  public:
-  MembraneDiscretization(const scene::MembraneScene& scene, const method::SpaceFactory& make_space, const method::MethodParams& method,
-                         const algebra::LinearParams& linear, const std::array<scene::FieldPtr, 3>& initial,
-                         const mesh::Hierarchy& hierarchy, int level)
+  MembraneDiscretization(const scene::MembraneScene& scene, double origin, const method::SpaceFactory& make_space,
+                         const method::MethodParams& method, const algebra::LinearParams& linear,
+                         const std::array<scene::FieldPtr, 3>& initial, const mesh::Hierarchy& hierarchy, int level)
       : scene_(scene), initial_(initial), hierarchy_(hierarchy), level_(level) {
     const core::Region region("assembly");
-    on_mesh_ = std::make_unique<MembraneLevel>(scene, make_space, method, linear, hierarchy.levels[level]);
+    on_mesh_ = std::make_unique<MembraneLevel>(scene, origin, make_space, method, linear, hierarchy.levels[level]);
   }
 
   complementarity::Problem& problem() override { return on_mesh_->problem(); }
@@ -167,11 +169,25 @@ class Membranes final : public StationaryModel {
     if (check_mesh_) check_mesh_(mesh, {boundary.dirichlet, scene_.interface_level_set, method_});
   }
   std::unique_ptr<Discretization> discretize(const mesh::Hierarchy& hierarchy, int level) const override {
-    return std::make_unique<MembraneDiscretization>(scene_, make_space_, method_, linear_, initial_, hierarchy, level);
+    if (!counted_) count_from(heights_of(scene_, hierarchy.levels.front(), 0).origin());
+    return std::make_unique<MembraneDiscretization>(counted_->scene, counted_->origin, make_space_, method_, linear_, counted_->initial,
+                                                    hierarchy, level);
   }
 
  private:
+  /// The functions with heights counted from `origin`, where the membranes are held.
+  struct Counted {
+    double origin;
+    scene::MembraneScene scene;
+    std::array<scene::FieldPtr, 3> initial;
+  };
+  void count_from(double origin) const {
+    counted_ = Counted{origin, scene::counted_from(origin, scene_), initial_};
+    for (int alpha = 0; alpha < scene_.count; ++alpha) counted_->initial[alpha] = scene::shifted(initial_[alpha], -origin);
+  }
+
   scene::MembraneScene scene_;
+  mutable std::optional<Counted> counted_;  ///< since the first mesh
   method::SpaceFactory make_space_;
   method::MeshCheck check_mesh_;
   method::MethodParams method_;

@@ -5,6 +5,7 @@
 #include <unordered_set>
 
 #include "exact_gradient.hpp"
+#include "heights.hpp"
 #include "membrane_kkt.hpp"
 #include "membrane_level.hpp"
 #include "thixis/core/error.hpp"
@@ -12,6 +13,7 @@
 #include "thixis/equilibration/step_bound.hpp"
 #include "thixis/mesh/adapt.hpp"
 #include "thixis/models/parabolic_membranes.hpp"
+#include "thixis/scene/heights.hpp"
 
 namespace thixis::models {
 namespace {
@@ -41,7 +43,8 @@ class ParabolicEvolution final : public Evolution {
   ParabolicEvolution(const scene::MembraneScene& scene, const method::SpaceFactory& make_space, const method::MethodParams& method,
                      const algebra::LinearParams& linear, mesh::Hierarchy hierarchy, std::optional<double> friedrichs,
                      std::vector<Probe> probes)
-      : scene_(scene),
+      : origin_(heights_of(scene, hierarchy.levels.front(), 0).origin()),
+        scene_(scene::counted_from(origin_, scene)),
         make_space_(make_space),
         method_(method),
         linear_(linear),
@@ -92,6 +95,7 @@ class ParabolicEvolution final : public Evolution {
       space().forces(*scene_.tension[alpha], on_mesh_->lift(alpha), part);
       F.update(-1, part, 1);
     }
+    on_mesh_->measure_from(on_mesh_->fields(before).u);
     X_before_ = Teuchos::rcp(new Vector(before, Teuchos::Copy));
     begun_ = true;
   }
@@ -317,7 +321,7 @@ class ParabolicEvolution final : public Evolution {
 
   std::unique_ptr<MembraneLevel> make_level() const {
     const core::Region region("assembly");
-    return std::make_unique<MembraneLevel>(scene_, make_space_, method_, linear_, hierarchy_.finest());
+    return std::make_unique<MembraneLevel>(scene_, origin_, make_space_, method_, linear_, hierarchy_.finest());
   }
 
   std::unique_ptr<equilibration::StepBound> make_bound(double time) const {
@@ -352,7 +356,8 @@ class ParabolicEvolution final : public Evolution {
     return step_.length() * sum / 2;
   }
 
-  const scene::MembraneScene& scene_;
+  double origin_;                     ///< of heights: where the membranes are held at the beginning
+  const scene::MembraneScene scene_;  ///< with heights counted from there
   const method::SpaceFactory& make_space_;
   method::MethodParams method_;
   algebra::LinearParams linear_;

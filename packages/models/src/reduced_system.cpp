@@ -1,5 +1,6 @@
 #include "reduced_system.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "constrained_solver.hpp"
@@ -20,8 +21,9 @@ auto output(MultiVector& v) { return v.getLocalViewDevice(Tpetra::Access::ReadWr
 /// What both reduced forms share: the contact set, the known part of dz, and the way back to (d1, d2, dlambda).
 class ReducedSystem : public LinearizedSystem {
  public:
-  explicit ReducedSystem(const MembraneOperator& membranes)
+  ReducedSystem(const MembraneOperator& membranes, const MembraneMeasure& measure)
       : membranes_(membranes),
+        measure_(measure),
         diagonal_(membranes.map()),
         penalty_(membranes.map()),
         contact_(membranes.map()),
@@ -134,7 +136,19 @@ class ReducedSystem : public LinearizedSystem {
     join(d, dX);
   }
 
+  /// Weights of residuals r_w, r_z of the two equations: with R_1 = theta1 r_w + r_z, R_2 = theta2 r_w - r_z,
+  ///
+  ///     |(R_1, R_2)| <= 2.5 max(weight_w |r_w|, weight_z |r_z|)          (one membrane: = |r_z|).
+  double weight_w() const {
+    double weight = 0;
+    for (int alpha = 0; alpha < membranes_.count; ++alpha)
+      weight = std::max(weight, measure_.weight(alpha) * std::min(1.0, 2 * membranes_.theta[alpha]));
+    return weight;
+  }
+  double weight_z() const { return measure_.contact_weight(); }
+
   const MembraneOperator& membranes_;
+  const MembraneMeasure& measure_;
 
  private:
   Vector diagonal_;  ///< of theta2² S1 + theta1² S2
@@ -147,9 +161,9 @@ class ReducedSystem : public LinearizedSystem {
 /// with kappa S its stiffness.
 class DecoupledSystem final : public ReducedSystem {
  public:
-  DecoupledSystem(const MembraneOperator& membranes, const algebra::LinearParams& params,
+  DecoupledSystem(const MembraneOperator& membranes, const MembraneMeasure& measure, const algebra::LinearParams& params,
                   const Teuchos::RCP<const MultiVector>& coordinates)
-      : ReducedSystem(membranes),
+      : ReducedSystem(membranes, measure),
         sum_(membranes.factor[0] + membranes.factor[1]),
         gap_(make_constrained_solver(membranes, {1, {{{kappa(membranes), 0}}}}, params, coordinates)) {
     if (membranes.count == 2) mean_ = make_constrained_solver(membranes, {1, {{{1, 0}}}}, params, coordinates);
@@ -170,8 +184,7 @@ class DecoupledSystem final : public ReducedSystem {
 
   algebra::LinearReport solve_reduced(const Vector& C, const Vector& r_w, const Vector& r_z, Vector& dw, Vector& dz,
                                       const algebra::LinearStop& stop, const Recover& recover) override {
-    // |r|² = |theta1 r_w + r_z|² + |theta2 r_w - r_z|² <= 5 max(|r_w|, |r_z|)²
-    const double share = membranes_.count == 1 ? 1 : 0.4;
+    const double share = membranes_.count == 1 ? 1 : 0.4, of_w = weight_w(), of_z = weight_z();
     Vector coupled(membranes_.map()), rhs(membranes_.map());
     apply(membranes_.theta[1] * membranes_.theta[1], membranes_.theta[0] * membranes_.theta[0], dz, coupled);
     right_side_z(C, r_z, dz, coupled, rhs);
@@ -179,34 +192,35 @@ class DecoupledSystem final : public ReducedSystem {
     algebra::LinearReport mean;
     mean.converged = true;
     mean.residual = membranes_.count == 1 ? 0 : r_w.norm2() / sum_;
-    if (sum_ * mean.residual > share * stop.tolerance) {
+    if (of_w * sum_ * mean.residual > share * stop.tolerance) {
       if (!mean_ready_) mean_->set_matrix();
       mean_ready_ = true;
-      const double of_gap = gap_->residual(rhs, dz);
+      const double of_gap = of_z * gap_->residual(rhs, dz);
       Vector mean_rhs(r_w, Teuchos::Copy);
       mean_rhs.scale(-1 / sum_);
       algebra::LinearStop inner = stop;
-      inner.tolerance = share * stop.tolerance / sum_;
+      inner.tolerance = share * stop.tolerance / (of_w * sum_);
       if (stop.criterion)
         inner.criterion = recovered(
-            stop, recover, 0, [&](const Vector& x) { return std::pair(&x, &dz); }, [&](double r) { return std::hypot(sum_ * r, of_gap); });
+            stop, recover, 0, [&](const Vector& x) { return std::pair(&x, &dz); },
+            [&](double r) { return std::hypot(of_w * sum_ * r, of_gap); });
       mean = mean_->solve(mean_rhs, dw, inner);
       if (!mean.converged) {
-        mean.residual = std::hypot(sum_ * mean.residual, of_gap);
+        mean.residual = std::hypot(of_w * sum_ * mean.residual, of_gap);
         return mean;
       }
     }
 
     algebra::LinearStop inner = stop;
-    inner.tolerance = share * stop.tolerance;
-    const double of_mean = sum_ * mean.residual;
+    inner.tolerance = share * stop.tolerance / of_z;
+    const double of_mean = of_w * sum_ * mean.residual;
     if (stop.criterion)
       inner.criterion = recovered(
           stop, recover, mean.iterations, [&](const Vector& x) { return std::pair(&dw, &x); },
-          [&](double r) { return std::hypot(of_mean, r); });
+          [&](double r) { return std::hypot(of_mean, of_z * r); });
     algebra::LinearReport gap = gap_->solve(rhs, dz, inner);
     gap.iterations += mean.iterations;
-    gap.residual = std::hypot(gap.residual, of_mean);
+    gap.residual = std::hypot(of_z * gap.residual, of_mean);
     gap.by_criterion = gap.by_criterion || mean.by_criterion;
     return gap;
   }
@@ -231,17 +245,32 @@ class DecoupledSystem final : public ReducedSystem {
 /// Tensions that vary: one system for (w, z), interlaced.
 class CoupledSystem final : public ReducedSystem {
  public:
-  CoupledSystem(const MembraneOperator& membranes, const algebra::LinearParams& params, const Teuchos::RCP<const MultiVector>& coordinates)
-      : ReducedSystem(membranes), map_(algebra::interlaced(membranes.map(), 2)) {
-    const double f1 = membranes.factor[0], f2 = membranes.factor[1], theta1 = membranes.theta[0], theta2 = membranes.theta[1];
-    const Blocks blocks = {
-        2, {{{f1, f2}, {theta2 * f1, -theta1 * f2}}, {{theta2 * f1, -theta1 * f2}, {theta2 * theta2 * f1, theta1 * theta1 * f2}}}};
-    solver_ = make_constrained_solver(membranes, blocks, params, coordinates);
+  CoupledSystem(const MembraneOperator& membranes, const MembraneMeasure& measure, const algebra::LinearParams& params,
+                const Teuchos::RCP<const MultiVector>& coordinates)
+      : ReducedSystem(membranes, measure), map_(algebra::interlaced(membranes.map(), 2)), params_(params), coordinates_(coordinates) {
+    stretch(wanted_stretch());
   }
   GlobalIndex nonzeros() const override { return solver_->nonzeros(); }
 
  private:
-  void set_matrix(const Vector& contact, const Vector& penalty) override { solver_->set_matrix(contact, penalty); }
+  /// The nearest power of two: it rounds nothing, and what acts in a step of time alone decides, not what acted in the first one.
+  double wanted_stretch() const { return std::exp2(std::round(std::log2(weight_z() / weight_w()))); }
+
+  void stretch(double q) {
+    stretch_ = q;
+    const double f1 = membranes_.factor[0], f2 = membranes_.factor[1];
+    const double theta1 = q * membranes_.theta[0], theta2 = q * membranes_.theta[1];
+    const Blocks blocks = {
+        2, {{{f1, f2}, {theta2 * f1, -theta1 * f2}}, {{theta2 * f1, -theta1 * f2}, {theta2 * theta2 * f1, theta1 * theta1 * f2}}}};
+    solver_ = make_constrained_solver(membranes_, blocks, params_, coordinates_);
+  }
+
+  void set_matrix(const Vector& contact, const Vector& penalty) override {
+    if (const double q = wanted_stretch(); q != stretch_) stretch(q);
+    Vector stretched(penalty, Teuchos::Copy);
+    stretched.scale(stretch_ * stretch_);
+    solver_->set_matrix(contact, stretched);
+  }
 
   algebra::LinearReport solve_reduced(const Vector& C, const Vector& r_w, const Vector& r_z, Vector& dw, Vector& dz,
                                       const algebra::LinearStop& stop, const Recover& recover) override {
@@ -252,39 +281,47 @@ class CoupledSystem final : public ReducedSystem {
     right_side_z(C, r_z, dz, coupled, rhs_z);
     apply(theta2, -theta1, dz, coupled);
     parts.getVectorNonConst(0)->update(-1, r_w, -1, coupled, 0);
-    parts.getVectorNonConst(1)->assign(rhs_z);
+    parts.getVectorNonConst(1)->update(stretch_, rhs_z, 0);
     join(parts, rhs);
     parts.getVectorNonConst(0)->putScalar(0);
-    parts.getVectorNonConst(1)->assign(dz);
+    parts.getVectorNonConst(1)->update(1 / stretch_, dz, 0);
     join(parts, x);
 
+    const double weight = std::max(weight_w(), weight_z() / stretch_);  // of a residual of this system
     algebra::LinearStop inner = stop;
-    inner.tolerance = 0.4 * stop.tolerance;
+    inner.tolerance = 0.4 * stop.tolerance / weight;
     if (stop.criterion)
       inner.criterion = [&](const Vector& y, int i, double residual) {
         MultiVector d(membranes_.map(), 2);
         Vector dX(membranes_.interlaced());
         split(y, d);
+        d.getVectorNonConst(1)->scale(stretch_);
         recover(*d.getVector(0), *d.getVector(1), dX);
-        return stop.criterion(dX, i, residual);
+        return stop.criterion(dX, i, weight * residual);
       };
-    const auto report = solver_->solve(rhs, x, inner);
+    auto report = solver_->solve(rhs, x, inner);
+    report.residual *= weight;
     split(x, parts);
     dw.assign(*parts.getVector(0));
-    dz.assign(*parts.getVector(1));
+    dz.update(stretch_, *parts.getVector(1), 0);
     return report;
   }
 
   algebra::MapPtr map_;
+  algebra::LinearParams params_;
+  Teuchos::RCP<const MultiVector> coordinates_;
+  double stretch_ =
+      1;  ///< q: the second unknown is z/q, and its equation is multiplied by q, so that both are solved as well as they must be
   std::unique_ptr<ConstrainedSolver> solver_;
 };
 
 }  // namespace
 
-std::unique_ptr<LinearizedSystem> make_reduced_system(const MembraneOperator& membranes, const algebra::LinearParams& params,
+std::unique_ptr<LinearizedSystem> make_reduced_system(const MembraneOperator& membranes, const MembraneMeasure& measure,
+                                                      const algebra::LinearParams& params,
                                                       const Teuchos::RCP<const algebra::MultiVector>& coordinates) {
-  if (membranes.shared()) return std::make_unique<DecoupledSystem>(membranes, params, coordinates);
-  return std::make_unique<CoupledSystem>(membranes, params, coordinates);
+  if (membranes.shared()) return std::make_unique<DecoupledSystem>(membranes, measure, params, coordinates);
+  return std::make_unique<CoupledSystem>(membranes, measure, params, coordinates);
 }
 
 }  // namespace thixis::models

@@ -1,5 +1,6 @@
 #pragma once
 #include "linearized_system.hpp"
+#include "membrane_measure.hpp"
 
 namespace thixis::models {
 
@@ -16,7 +17,8 @@ namespace thixis::models {
 /// their multiplier follows from equilibrium.
 ///
 /// Where the operator is condensed, so is each of these systems.
-std::unique_ptr<LinearizedSystem> make_reduced_system(const MembraneOperator& membranes, const algebra::LinearParams& params,
+std::unique_ptr<LinearizedSystem> make_reduced_system(const MembraneOperator& membranes, const MembraneMeasure& measure,
+                                                      const algebra::LinearParams& params,
                                                       const Teuchos::RCP<const algebra::MultiVector>& coordinates);
 
 }  // namespace thixis::models

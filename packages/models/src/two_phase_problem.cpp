@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "thixis/core/timer.hpp"
+#include "two_phase_increments.hpp"
 #include "two_phase_turnover.hpp"
 
 namespace thixis::models {
@@ -21,7 +22,10 @@ constexpr double some_gas = 1e-8;        // s_g of cells that can give and take 
 constexpr double rounding = 1e-15;       // mean row that needs no correction
 constexpr double singular = 1e-10;       // share of the determinant that cancellation must leave
 constexpr double largest_weight = 1e60;  // nothing overflows
-constexpr double resolved = 1e10;        // units in the last place that a step must move for its tolerance to be relative to them
+constexpr int most_sharpenings = 4;
+constexpr double small_part = 1e-3;          // of the largest increment, that a row may leave in its unknown
+constexpr double smallest_increment = 1e-4;  // in the units of the unknowns, that counts
+constexpr double resolved = 1e10;            // units in the last place that a step must move for its tolerance to be relative to them
 
 In read(const Vector& v) { return v.getLocalViewDevice(Tpetra::Access::ReadOnly); }
 Out write(Vector& v) { return v.getLocalViewDevice(Tpetra::Access::ReadWrite); }
@@ -346,9 +350,31 @@ algebra::LinearReport TwoPhaseProblem::solve(const Vector& R, Vector& dX, const 
     };
   dX.putScalar(0);
   algebra::LinearReport report = solver_.solve(minus_R, dX, scaled);
-  if (report.converged) balance(minus_R, dX, report.residual);
+  if (report.converged) {
+    sharpen(minus_R, dX, report);
+    balance(minus_R, dX, report.residual);
+  }
   scale(dX, true);
+  report.shortened = shortened(flow_.laws(), scales_.unknown, *at_.X, dX);
   return report;
+}
+
+/// Rows of gas that flows easily are larger by orders of magnitude than others, which a tolerance in |.| then does not see: the solver is
+/// asked for less until what any row leaves is small beside the increments.
+void TwoPhaseProblem::sharpen(const Vector& B, Vector& Y, algebra::LinearReport& report) const {
+  Vector r(B.getMap());
+  for (int again = 0; again < most_sharpenings; ++again) {
+    A_->apply(Y, r);
+    r.update(1, B, -1);
+    const double allowed = small_part * std::max(Y.normInf(), smallest_increment), left = largest_left(*A_, r);
+    if (!(left > allowed)) return;
+    algebra::LinearStop stop;
+    stop.tolerance = std::min(0.1, 0.3 * allowed / left) * r.norm2();
+    const algebra::LinearReport more = solver_.solve(B, Y, stop);
+    report.iterations += more.iterations;
+    if (std::isfinite(more.residual)) report.residual = more.residual;
+    if (!more.converged) return;
+  }
 }
 
 /// The column of Z for a component: chi for hydrogen; for water P if it can leave through faces of kind state, else s_g where there is gas.

@@ -23,8 +23,8 @@ struct FlowScales {
 /// relative to what the step moves (4), down to rounding.
 ///
 /// Rows of a cell: contact, water, hydrogen. So the diagonal holds the derivatives by s_g, P, chi that dominate them, and incomplete
-/// factors of level 0 are exact in one dimension. `solve` closes the linearized balances of both components to rounding, whatever the
-/// solver leaves.
+/// factors of level 0 are exact in one dimension. `solve` asks for more where what is left of a row would move its unknown, closes the
+/// linearized balances of both components to rounding, and shortens increments to where the laws resemble their tangents.
 class TwoPhaseProblem final : public complementarity::Problem {
  public:
   /// Where the equations of the step were linearized last; X null: nowhere yet.
@@ -74,6 +74,7 @@ class TwoPhaseProblem final : public complementarity::Problem {
   void set_pattern();
   void scale(algebra::Vector& X, bool up) const;
   Teuchos::RCP<algebra::Vector> balancing_mode(int component) const;
+  void sharpen(const algebra::Vector& B, algebra::Vector& Y, algebra::LinearReport& report) const;
   void balance(const algebra::Vector& B, algebra::Vector& Y, double& residual) const;
 
   const TwoPhaseOperator& flow_;

@@ -53,6 +53,18 @@ class Failure : public ::testing::TestWithParam<LinearParams> {};
 
 }  // namespace
 
+TEST(Gmres, does_not_add_a_correction_that_is_not_finite) {
+  const Row tiny = [](GlobalIndex i, auto& columns, auto& values) {
+    columns.push_back(i);
+    values.push_back(1e-100);
+  };
+  const Case run(params(SolverKind::gmres), tiny, 144, 1, 1e100);
+  EXPECT_FALSE(run.report.converged);
+  EXPECT_TRUE(std::isfinite(run.report.residual)) << "of the x that is left";
+  EXPECT_FALSE(run.report.reason.empty());
+  EXPECT_EQ(run.x.normInf(), 1);
+}
+
 TEST_P(Failure, of_a_matrix_with_nan_or_infinity_is_reported_and_leaves_x_alone) {
   for (const double bad : {nan, infinity}) {
     const Case run(GetParam(), with_entry(poisson(12), 100, bad), 144);

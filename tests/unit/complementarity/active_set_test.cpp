@@ -18,7 +18,7 @@ ActiveSet set_of(const std::function<double(int)>& difference, Ties ties = Ties:
   algebra::Vector K(map), G(map), s(map);
   for (int l = 0; l < algebra::local_size(*map); ++l) K.replaceLocalValue(l, difference(static_cast<int>(map->getGlobalElement(l))));
   s.putScalar(1);
-  return ActiveSet(K, G, s, ties, tolerance);
+  return ActiveSet(K, G, s, ties, tolerance * largest_argument(K, G, s));
 }
 
 TEST(ActiveSet, counts_contact_points_of_all_ranks) {

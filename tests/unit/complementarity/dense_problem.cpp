@@ -155,6 +155,7 @@ algebra::LinearReport DenseProblem::solve(const algebra::Vector& R, algebra::Vec
     }
   }
   if (!report.converged) report.reason = "too few iterations";
+  if (linear.gives_nan) report.reason = linear.reason;
   return report;
 }
 

@@ -2,6 +2,7 @@
 /// A small contact problem with full matrices: every rank knows all of it and solves all of it, and keeps its own part of the vectors.
 #include <Tpetra_Vector.hpp>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "thixis/complementarity/problem.hpp"
@@ -31,6 +32,7 @@ struct LinearBehaviour {
   int max_iterations = 1000;
   double overshoot = 1;  ///< all corrections are so many times too long, and claimed to be right
   bool gives_nan = false;
+  std::string reason;  ///< of NaN, as the solver tells it
 };
 
 class DenseProblem : public Problem {

@@ -112,6 +112,7 @@ TEST(Globalization, a_line_search_that_gets_stuck_says_so) {
     EXPECT_FALSE(report.converged);
     if (globalization == Globalization::line_search) {
       EXPECT_NE(report.why.find("no step length lowers"), std::string::npos) << report.why;
+      EXPECT_NE(report.advice.find("Try newton/c-function = min"), std::string::npos) << report.advice;
       EXPECT_NEAR(problem.gather(X)[0], std::sqrt(2.0 / 3), 1e-3);
     }
   }
@@ -137,6 +138,27 @@ TEST(Globalization, hybrid_damps_when_the_residual_keeps_growing) {
     const auto damped_step = [](const NewtonRecord& record) { return record.step_length < 1; };
     EXPECT_TRUE(std::any_of(log.records.begin(), log.records.end(), damped_step));
   }
+}
+
+TEST(Globalization, undamped_steps_that_diverge_end_long_before_their_numbers_do) {
+  DenseProblem problem(string_over_obstacle(16));
+  problem.linear.overshoot = 1e6;
+  NewtonParams params;
+  algebra::Vector X(problem.map());
+  const NewtonReport report = newton(problem, X, params, {}, 0);
+  EXPECT_FALSE(report.converged);
+  EXPECT_NE(report.why.find("diverges"), std::string::npos) << report.why;
+  EXPECT_NE(report.advice.find("newton/globalization = hybrid"), std::string::npos) << report.advice;
+  EXPECT_LE(report.steps, 5);
+  EXPECT_LT(report.residuals.back(), 1e30 * report.residuals.front());
+
+  X.putScalar(0);
+  problem.linear.overshoot = 40;
+  params.globalization = Globalization::hybrid;
+  Log log;
+  newton(problem, X, params, {}, 0, log.observer());
+  ASSERT_FALSE(log.messages.empty());
+  EXPECT_NE(log.messages[0].find("grown without bound"), std::string::npos) << log.messages[0];
 }
 
 TEST(Globalization, hybrid_goes_back_when_the_residual_is_not_finite) {

@@ -182,6 +182,7 @@ TEST(Newton, ends_unconverged_at_its_limit_and_keeps_the_last_iterate) {
   EXPECT_FALSE(solved.report.converged);
   EXPECT_EQ(solved.report.steps, 2);
   EXPECT_NE(solved.report.why.find("max iterations"), std::string::npos) << solved.report.why;
+  EXPECT_NE(solved.report.advice.find("Try more newton/max iterations"), std::string::npos) << solved.report.advice;
 
   DenseProblem again(string_over_obstacle(64));
   algebra::Vector X(again.map());
@@ -213,6 +214,7 @@ TEST(Newton, reports_nan_of_the_problem_and_keeps_the_iterate_before_it) {
     EXPECT_FALSE(solved.report.converged);
     EXPECT_EQ(solved.report.steps, 2);
     EXPECT_NE(solved.report.why.find("not a finite number"), std::string::npos) << solved.report.why;
+    EXPECT_NE(solved.report.advice.find("newton/globalization = hybrid"), std::string::npos) << solved.report.advice;
     EXPECT_TRUE(std::isfinite(solved.X.norm2()));
   }
 }
@@ -224,6 +226,7 @@ TEST(Newton, reports_nan_at_the_start) {
   EXPECT_FALSE(solved.report.converged);
   EXPECT_EQ(solved.report.steps, 0);
   EXPECT_NE(solved.report.why.find("not a finite number"), std::string::npos) << solved.report.why;
+  EXPECT_NE(solved.report.advice.find("newton/initial"), std::string::npos) << solved.report.advice;
 }
 
 TEST(Newton, reports_nan_of_the_linear_solver_and_keeps_the_start) {
@@ -234,6 +237,12 @@ TEST(Newton, reports_nan_of_the_linear_solver_and_keeps_the_start) {
   EXPECT_EQ(solved.report.steps, 0);
   EXPECT_EQ(solved.X.norm2(), 0);
   EXPECT_NE(solved.report.why.find("not finite"), std::string::npos) << solved.report.why;
+  EXPECT_NE(solved.report.advice.find("linear/solver = direct"), std::string::npos) << solved.report.advice;
+
+  problem.linear.reason = "the factorization has a zero pivot";
+  const Solved told(problem);
+  EXPECT_NE(told.report.why.find("the linear solver found nothing: the factorization has a zero pivot"), std::string::npos)
+      << told.report.why;
 }
 
 TEST(Newton, refuses_a_scaling_that_is_not_positive) {

@@ -117,7 +117,25 @@ TEST(Stopping, one_unfinished_linear_solve_is_forgiven_two_are_not) {
   ASSERT_EQ(messages.size(), 1u);
   EXPECT_NE(messages[0].find("too few iterations"), std::string::npos) << messages[0];
   EXPECT_NE(report.why.find("second time"), std::string::npos) << report.why;
+  EXPECT_NE(report.advice.find("linear/solver = direct"), std::string::npos) << report.advice;
   EXPECT_GT(X.norm2(), 0);
+}
+
+TEST(Stopping, a_linear_solve_down_to_the_rounding_of_what_it_finds_is_no_failure) {
+  class Rounded : public DenseProblem {
+   public:
+    Rounded() : DenseProblem(string_over_obstacle(32)) {}
+    double noise(const algebra::Vector& X) const override { return X.norm2() > 0 ? reference_norm() : 0; }
+  };
+  Rounded problem;
+  problem.linear.rate = 0.7;
+  problem.linear.max_iterations = 10;
+  int messages = 0;
+  NewtonObserver observer;
+  observer.message = [&](const std::string&) { ++messages; };
+  algebra::Vector X(problem.map());
+  EXPECT_TRUE(newton(problem, X, {}, {}, 0, observer).converged);
+  EXPECT_EQ(messages, 0);
 }
 
 TEST(Stopping, a_linear_solve_that_achieves_nothing_ends_the_run_at_the_start) {
@@ -130,6 +148,7 @@ TEST(Stopping, a_linear_solve_that_achieves_nothing_ends_the_run_at_the_start) {
   EXPECT_EQ(report.steps, 0);
   EXPECT_EQ(X.norm2(), 0);
   EXPECT_NE(report.why.find("linear solver"), std::string::npos) << report.why;
+  EXPECT_NE(report.advice.find("linear/solver = direct"), std::string::npos) << report.advice;
 }
 
 TEST(Stopping, the_adaptive_rule_is_refused_without_an_estimate) {

@@ -10,6 +10,7 @@
 
 #include "thixis/complementarity/newton.hpp"
 #include "thixis/scene/membranes.hpp"
+#include "two_phase_increments.hpp"
 #include "two_phase_problem.hpp"
 
 namespace thixis::models {
@@ -339,6 +340,56 @@ TEST(TwoPhaseEvolution, owes_what_a_step_leaves) {
     if (balance.name != "hydrogen") continue;
     EXPECT_NEAR(balance.total, owed / brought, 1e-12);
   }
+}
+
+TEST(TwoPhaseIncrements, of_saturation_end_behind_the_next_corner) {
+  scene::TwoPhaseScene scene = catalogued("gas injection");
+  scene.medium.S_gr = 0.02;
+  const TwoPhaseLaws trapped = two_phase_laws(scene);
+  const double low = 0.02, high = low + trapped.eps * trapped.width, past = 1e-2 * (high - low);
+  EXPECT_DOUBLE_EQ(end_of_saturation(trapped, 0.005, 0.01), 0.015);
+  for (const double from : {0.0, 0.01, low - past}) {
+    const double end = end_of_saturation(trapped, from, 0.1);
+    EXPECT_GT(end, low);
+    EXPECT_LT(end, low + past);
+  }
+  const double up = end_of_saturation(trapped, 0.5 * (low + high), 0.1);
+  EXPECT_TRUE(up > high && up < high + past) << up;
+  const double down = end_of_saturation(trapped, 0.1, -0.1);
+  EXPECT_TRUE(down < high && down > high - past) << down;
+  const double further = end_of_saturation(trapped, down, -0.1);
+  EXPECT_TRUE(further < low && further > low - past) << further;
+  EXPECT_DOUBLE_EQ(end_of_saturation(trapped, 0.1, 0.05), 0.15);
+
+  const TwoPhaseLaws mobile = two_phase_laws(catalogued("gas injection"));
+  EXPECT_DOUBLE_EQ(end_of_saturation(mobile, 0.1, -0.15), -0.05) << "no corner but that of the contact conditions";
+  EXPECT_DOUBLE_EQ(end_of_saturation(mobile, 0.1, 7), 0.3);
+  EXPECT_DOUBLE_EQ(end_of_saturation(mobile, 0.1, -7), -0.1);
+}
+
+TEST(TwoPhaseIncrements, are_shortened_cell_by_cell) {
+  const TwoPhaseOperator flow(fv::build(interval(6, 200), core::Comm(), ""), catalogued("gas injection"), year);
+  const double unknown[unknowns_per_cell] = {1, 1e6, 1e-4};
+  Vector X(flow.map()), dX(flow.map());
+  X.putScalar(0);
+  const auto first = flow.map()->getMinAllGlobalIndex();
+  const auto set = [&](int cell, Unknown u, double value) {
+    const auto row = flow.map()->getLocalElement(first + unknowns_per_cell * cell + u);
+    if (row >= 0) algebra::host_view(dX)(row) = value;
+  };
+  const auto largest = [&] { return dX.normInf(); };
+  set(2, pressure, -9e6);
+  set(4, gas_saturation, 0.19);
+  EXPECT_FALSE(shortened(flow.laws(), unknown, X, dX));
+  EXPECT_EQ(largest(), 9e6);
+  set(2, pressure, -9e9);
+  EXPECT_TRUE(shortened(flow.laws(), unknown, X, dX)) << "on all ranks";
+  EXPECT_EQ(largest(), 1e7);
+  set(2, pressure, 0);
+  set(5, dissolved, 1);
+  EXPECT_TRUE(shortened(flow.laws(), unknown, X, dX));
+  set(4, gas_saturation, 0);
+  EXPECT_DOUBLE_EQ(largest(), 1e-3);
 }
 
 TEST(TwoPhaseEvolution, refuses_parts_of_the_boundary_and_probes_that_are_not_there) {

@@ -47,5 +47,40 @@ TEST(NewtonSteps, no_tolerance_of_the_solver_makes_the_verifier_accept_a_wrong_a
   EXPECT_LE(run.outcome.kkt_tolerance, 1e-3);
   EXPECT_FALSE(run.outcome.kkt->holds(run.outcome.kkt_tolerance));
 }
+/// What is left of a linear system is compared with the nonlinear residual at the iterate: forces with forces.
+TEST(NewtonSteps, the_rule_inexact_saves_krylov_iterations_in_every_form) {
+  using algebra::PreconditionerKind;
+  using algebra::SolverKind;
+  using algebra::SystemForm;
+  struct Way {
+    const char* deck;
+    method::MethodParams method;
+    SystemForm form;
+    SolverKind solver;
+    PreconditionerKind preconditioner;
+  };
+  const auto p1 = by(method::MethodName::fem, 1), p2 = by(method::MethodName::fem, 2), hho = by(method::MethodName::hho, 1);
+  for (const Way& way : {Way{"varying_tension", p1, SystemForm::full, SolverKind::gmres, PreconditionerKind::ilu},
+                         Way{"varying_tension", p1, SystemForm::reduced, SolverKind::gmres, PreconditionerKind::ilu},
+                         Way{"varying_tension", p2, SystemForm::reduced, SolverKind::cg, PreconditionerKind::muelu},
+                         Way{"discontinuous_multiplier", p2, SystemForm::reduced, SolverKind::gmres, PreconditionerKind::ilu},
+                         Way{"discontinuous_multiplier", hho, SystemForm::full, SolverKind::gmres, PreconditionerKind::ilu}}) {
+    auto params = from_deck(std::string(way.deck) + ".xml", 2);
+    params.method = way.method;
+    params.linear.form = way.form;
+    params.linear.solver = way.solver;
+    params.linear.preconditioner = way.preconditioner;
+    params.linear.check_every = 5;
+    params.newton.start = complementarity::Start::cold;
+    const Solved exact = solve(params);
+    params.stopping.rule = complementarity::StoppingRule::inexact;
+    const Solved inexact = solve(params);
+    const std::string name = std::string(way.deck) + ", " + method::to_text(way.method.name);
+    EXPECT_TRUE(inexact.outcome.solved) << name << ": " << inexact.outcome.finest.why;
+    EXPECT_LE(inexact.outcome.at.linear_iterations, 0.8 * exact.outcome.at.linear_iterations) << name;
+    EXPECT_LE(inexact.outcome.kkt->worst(), 1e-6) << name;
+    EXPECT_NEAR(inexact.outcome.energy_norm, exact.outcome.energy_norm, 1e-8 * exact.outcome.energy_norm) << name;
+  }
+}
 
 }  // namespace thixis::verification

@@ -55,9 +55,9 @@ drive::RunParams from_deck(const std::string& deck, int refinements) {
   return params;
 }
 
-drive::RunParams data(const std::map<std::string, std::string>& functions, int level) {
+drive::RunParams data(const std::map<std::string, std::string>& functions, int level, const std::string& model) {
   auto deck = core::Deck::from_text("<ParameterList name=\"thixis\"/>", "data");
-  deck.set("scene/model=membranes");
+  deck.set("scene/model=" + model);
   for (const auto& [name, expression] : functions) deck.set("scene/data/" + name + "=" + expression);
   auto params = deck.parse(drive::RunParams::schema());
   params.mesh.refinements = level;

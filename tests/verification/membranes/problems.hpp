@@ -25,7 +25,7 @@ drive::RunParams catalogued(const std::string& name, int level);
 drive::RunParams from_deck(const std::string& deck, int refinements);
 
 /// The block `data` of the deck: name -> expression or number.
-drive::RunParams data(const std::map<std::string, std::string>& functions, int level);
+drive::RunParams data(const std::map<std::string, std::string>& functions, int level, const std::string& model = "membranes");
 /// Membranes with tensions mu1, mu2, held 0.1 apart from the plane and pressed together: contact in the middle of the unit square.
 drive::RunParams pressed(const std::string& mu1, const std::string& mu2, int level);
 

@@ -294,6 +294,23 @@ TEST(Promise, of_a_kinked_obstacle_without_an_interface_is_none) {
   }
 }
 
+/// A step inside of cells, along an interface, and along faces: its upper height counts on the edge, which no interpolant has.
+TEST(Promise, of_an_obstacle_that_jumps_is_none) {
+  for (int p = 1; p <= 2; ++p)
+    for (const auto& [name, method] : methods(p))
+      for (const char* edge : {"0.31", "0.5"})
+        for (const bool known : {false, true}) {
+          Functions functions = {{"data/psi", fmt::format("x < {} ? 0.2 : -0.4", edge)}, {"data/f", "-1"}, {"data/g", "0.3"}};
+          if (known) {
+            functions["interface"] = fmt::format("x - {}", edge);
+            functions["data/degree"] = "1";
+          }
+          const Solved run = solve(scene_of("obstacle", functions, method));
+          EXPECT_TRUE(run.outcome.solved) << name << ", " << edge;
+          EXPECT_EQ(run.outcome.estimate->promise, Promise::up_to_quadrature) << name << ", " << edge << (known ? ", named" : "");
+        }
+}
+
 TEST(Promise, of_pieces_that_meet_at_faces_is_guaranteed_when_the_deck_names_their_degree) {
   for (int p = 1; p <= 2; ++p) {
     Functions functions = {{"data/psi", "1 - abs(x - 0.5)"},

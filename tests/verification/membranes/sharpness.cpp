@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fstream>
 #include <functional>
+#include <map>
 
 #include "iterates.hpp"
 
@@ -26,7 +27,7 @@ Seen at_convergence(drive::RunParams params, const std::string& problem, int lev
   const std::string where = problem + ", T_" + std::to_string(level) + ", " + name;
   EXPECT_GE(seen.effectivity(), 1) << where;
   // eta_lin holds the root of multiplier times gap: where GMRES or a matrix without symmetry leaves 1e-13 of it, 1e-6 is seen
-  const double round_off = 1e-9 * run.outcome.energy_norm;
+  const double round_off = 1e-8 * run.outcome.energy_norm;  // the root of a unit in the last place of the gap
   const bool exact = method.symmetric() && params.linear.solver == algebra::SolverKind::direct;
   EXPECT_LE(seen.eta.linearization, (exact ? 1e-9 : 1e-6) * seen.eta.discretization + round_off) << where;
   EXPECT_LE(seen.eta.algebraic, (exact ? 1e-7 : 1e-5) * seen.eta.discretization + round_off) << where;
@@ -80,33 +81,76 @@ TEST(FarSharpness, of_finite_elements_of_higher_degree_is_bounded_up_to_T_4) {
 
 namespace {
 
-/// Two membranes on each other everywhere, also where they are held: there boundary nodes have no multiplier.
+const std::map<std::string, std::string> wave = {{"u", "0.3*sin(x+2*y)"}, {"x", "0.3*cos(x+2*y)"}, {"y", "0.6*cos(x+2*y)"}};
+
+/// Two membranes on each other everywhere, also where they are held: there boundary nodes have no multiplier. Their moments against vertex
+/// functions of degree 2, which have no mean, are of both signs.
 drive::RunParams contact_everywhere(int level) {
   return data({{"f1", "1.5*sin(x+2*y)-(2+x*y)"},
                {"f2", "1.5*sin(x+2*y)+(2+x*y)"},
-               {"u1", "0.3*sin(x+2*y)"},
-               {"u2", "0.3*sin(x+2*y)"},
+               {"u1", wave.at("u")},
+               {"u1_x", wave.at("x")},
+               {"u1_y", wave.at("y")},
+               {"u2", wave.at("u")},
+               {"u2_x", wave.at("x")},
+               {"u2_y", wave.at("y")},
                {"lambda", "2+x*y"}},
               level);
 }
 
-/// Every method, on the meshes up to `finest`. HHO of degree 2 does not keep the limit: 3.1 on T_1.
-void expect_at_most_3(const std::string& problem, const std::function<drive::RunParams(int)>& on_level, int coarsest, int finest,
-                      int lowest = 1, int highest = 4) {
-  for (int level = coarsest; level <= finest; ++level)
-    for (int p = lowest; p <= highest; ++p)
-      for (const auto& [name, method] : all_variants(p)) {
+/// The same with tensions that vary, each in its way: what the data on the boundary have beyond their interpolant is lifted differently.
+drive::RunParams varying_tensions(int level) {
+  return data({{"mu1", "1+x"},
+               {"mu2", "2-y"},
+               {"f1", "(1+x)*1.5*sin(x+2*y)-0.3*cos(x+2*y)-(2+x*y)"},
+               {"f2", "(2-y)*1.5*sin(x+2*y)+0.6*cos(x+2*y)+(2+x*y)"},
+               {"u1", wave.at("u")},
+               {"u1_x", wave.at("x")},
+               {"u1_y", wave.at("y")},
+               {"u2", wave.at("u")},
+               {"u2_x", wave.at("x")},
+               {"u2_y", wave.at("y")},
+               {"lambda", "2+x*y"}},
+              level);
+}
+
+/// A membrane on an obstacle that is no polynomial, everywhere.
+drive::RunParams on_a_curved_obstacle(int level) {
+  return data({{"f", "1.5*sin(x+2*y)-(2+x*y)"},
+               {"psi", wave.at("u")},
+               {"u", wave.at("u")},
+               {"u_x", wave.at("x")},
+               {"u_y", wave.at("y")},
+               {"lambda", "2+x*y"}},
+              level, "obstacle");
+}
+
+/// Every method, on the meshes up to `finest`: at most 3, and none grows by more than a tenth from mesh to mesh. On a curved obstacle NIPG
+/// with weak data has multipliers of both signs on the coarsest mesh, and up to 3.7.
+void expect_at_most_3(const std::string& problem, const std::function<drive::RunParams(int)>& on_level, int finest, int lowest = 1) {
+  for (int p = lowest; p <= 4; ++p)
+    for (const auto& [name, method] : all_variants(p)) {
+      double before = 10;
+      for (int level = 0; level <= finest; ++level) {
         auto params = on_level(level);
         params.method = method;
-        const bool quadratic_hho = p == 2 && method.name == method::MethodName::hho;
-        EXPECT_LE(at_convergence(params, problem, level, name).effectivity(), quadratic_hho ? 4 : 3)
-            << problem << ", T_" << level << ", " << name;
+        const double index = at_convergence(params, problem, level, name).effectivity();
+        const bool signs = level == 0 && params.scene.model == scene::Model::obstacle && name.find("nipg, weak") == 0;
+        EXPECT_LE(index, signs ? 4 : 3) << problem << ", T_" << level << ", " << name;
+        EXPECT_LE(index, 1.1 * before) << problem << ", T_" << level << ", " << name;
+        before = index;
       }
+    }
 }
 
 }  // namespace
 
-TEST(Sharpness, of_contact_up_to_the_held_boundary_is_three_at_most) { expect_at_most_3("contact everywhere", contact_everywhere, 0, 1); }
+TEST(Sharpness, of_contact_up_to_the_held_boundary_is_three_at_most) { expect_at_most_3("contact everywhere", contact_everywhere, 1); }
+TEST(Sharpness, of_contact_with_varying_tensions_is_three_at_most) { expect_at_most_3("varying tensions", varying_tensions, 1, 4); }
+TEST(Sharpness, of_contact_with_a_curved_obstacle_is_three_at_most) { expect_at_most_3("curved obstacle", on_a_curved_obstacle, 1); }
+TEST(FarSharpness, of_contact_up_to_the_held_boundary_is_three_at_most) { expect_at_most_3("contact everywhere", contact_everywhere, 2); }
+TEST(FarSharpness, of_contact_with_varying_tensions_is_three_at_most) { expect_at_most_3("varying tensions", varying_tensions, 2); }
+TEST(FarSharpness, of_contact_with_a_curved_obstacle_is_three_at_most) { expect_at_most_3("curved obstacle", on_a_curved_obstacle, 2); }
 
 namespace {
 

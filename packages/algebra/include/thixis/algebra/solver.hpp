@@ -41,7 +41,8 @@ struct LinearReport {
   double residual = 0;     ///< |b - A x| at the end, computed from x; NaN if there is no finite iterate (x is then as it was)
   bool converged = false;  ///< the tolerance or the criterion was met
   bool by_criterion = false;
-  std::string reason;  ///< one clause for the log when not converged
+  bool shortened = false;  ///< by the model, after the solve: x is less than what solves the system
+  std::string reason;      ///< one clause for the log when not converged
 };
 
 /// A x = b on all ranks. Symbolic work is done once per graph, numeric work at each `set_matrix`.

@@ -11,14 +11,15 @@ enum class Ties { contact, free };
 
 /// The contact points where Newton-min takes the K-row: K_l < s_l G_l, and the ties if they go to contact. A tie is
 ///
-///     |K_l - s_l G_l| <= tolerance · max_m max(|K_m|, s_m |G_m|)        (0: exact equality),
+///     |K_l - s_l G_l| <= tie        (0: exact equality),
 ///
-/// so that with a scaling s in physical units the set does not change with the units.
+/// which is to be a small part of the gaps that matter, e.g. of `largest_argument`: with a scaling s in physical units the set does then
+/// not change with the units.
 class ActiveSet {
  public:
   ActiveSet() = default;  ///< no points
   /// Collective on the map of the points. K, G, s on the same map.
-  ActiveSet(const algebra::Vector& K, const algebra::Vector& G, const algebra::Vector& s, Ties ties, double tie_tolerance);
+  ActiveSet(const algebra::Vector& K, const algebra::Vector& G, const algebra::Vector& s, Ties ties, double tie);
 
   const std::vector<std::uint8_t>& flags() const { return flags_; }  ///< one per local point: 1 contact, 0 free
   long long count() const { return count_; }                         ///< contact points on all ranks
@@ -36,5 +37,8 @@ class ActiveSet {
   long long count_ = 0;
   std::uint64_t fingerprint_ = 0;
 };
+
+/// max_l max(|K_l|, s_l |G_l|) over all ranks. Collective.
+double largest_argument(const algebra::Vector& K, const algebra::Vector& G, const algebra::Vector& s);
 
 }  // namespace thixis::complementarity

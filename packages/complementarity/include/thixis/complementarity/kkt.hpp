@@ -8,32 +8,34 @@
 namespace thixis::complementarity {
 
 /// What the contact conditions are judged by: recomputed from the solution, cell by cell, without the matrices and residuals of the
-/// solver. The vectors live on one map, one entry per contact point l.
+/// solver. The vectors live on one map, one entry per contact point l. A multiplier is best given as the force at its point, not as force
+/// per area: where the areas of points differ by orders, an error of the force in a tiny one is no error of the solution.
 struct KktData {
   Teuchos::RCP<const algebra::Vector> gap;  ///< g_l
   /// λ_α,l from the equilibrium of each body α alone, e.g. -(f1, ψ_l) + μ1 (∇u1, ∇ψ_l) and (f2, ψ_l) - μ2 (∇u2, ∇ψ_l): the sign that makes
   /// each of them >= 0.
   std::vector<Teuchos::RCP<const algebra::Vector>> equilibrium;
   Teuchos::RCP<const algebra::Vector> claimed;  ///< the multiplier in X, in the same units as λ_α
-  double unbalanced = 0;                        ///< worst |residual| of the equations without a contact point, in the units of λ_α
-  double between_nodes = 0;                     ///< worst violation max(-g, 0) between the points
-  double gap_scale = 1;                         ///< > 0: the size of a gap that matters, e.g. max |u|
-  double smallest_weight = 1;   ///< > 0: smallest factor of a multiplier in the residual: D_l in the equations, s_l in the rows of contact
+  std::vector<double> body_scale;               ///< > 0: the size of a force that matters to each body; empty: multiplier_scale
+  double unbalanced = 0;        ///< worst |residual| of the equations without a contact point, in units of what matters to the body
+  double between_nodes = 0;     ///< worst violation max(-g, 0) between the points
+  double gap_scale = 1;         ///< > 0: the size of a gap that matters, e.g. max |u|
   double multiplier_scale = 1;  ///< > 0: the size of a multiplier that matters, e.g. max |F_l|
+  double of_residual = 1;       ///< what a residual 1, at one point and in the norm of the problem, makes of a relative violation
 
-  /// What a residual r of the equations allows at one point, r / (smallest_weight · multiplier_scale), but at least 1e-6 and at most 1e-3:
-  /// no tolerance of a solver makes a wrong answer right.
-  double allowed(double r) const { return std::min(std::max(1e-6, r / (smallest_weight * multiplier_scale)), 1e-3); }
+  /// What a residual r allows at one point, r of_residual, but at least 1e-6 and at most 1e-3: no tolerance of a solver makes a wrong
+  /// answer right.
+  double allowed(double r) const { return std::min(std::max(1e-6, r * of_residual), 1e-3); }
 };
 
 /// How far data are from g >= 0, λ >= 0, g λ = 0, λ in equilibrium with every body: relative, >= 0, maxima over all ranks; infinite where
 /// data are not finite.
 struct Kkt {
   double infeasible = 0;     ///< max_l max(-g_l, 0) / gap_scale
-  double negative = 0;       ///< max_l,α max(-λ_α,l, 0) / multiplier_scale, over the claimed multiplier, too
-  double complementary = 0;  ///< max_l,α min(|g_l| / gap_scale, |λ_α,l| / multiplier_scale), over the claimed multiplier, too
+  double negative = 0;       ///< max_l,α max(-λ_α,l, 0) / scale_α, and over the claimed multiplier / multiplier_scale, too
+  double complementary = 0;  ///< max_l,α min(|g_l| / gap_scale, |λ_α,l| / scale_α), over the claimed multiplier, too
   double between_nodes = 0;  ///< violation between the points / gap_scale; a discretization error for degree >= 2, not judged by `holds`
-  double equilibrium = 0;    ///< max_l,α |λ_α,l - claimed_l| / multiplier_scale, and unbalanced / multiplier_scale
+  double equilibrium = 0;    ///< max_l,α |λ_α,l - claimed_l| / scale_α, and unbalanced
 
   double worst() const;  ///< of all but between_nodes
   bool holds(double tolerance) const { return worst() <= tolerance; }

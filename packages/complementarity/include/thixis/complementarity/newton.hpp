@@ -17,7 +17,7 @@ struct NewtonRecord {
   int linear_iterations = 0;            ///< of this step
   long long active = 0;                 ///< contact points
   long long changed = 0;                ///< points whose state differs from the one at X^{k-1}
-  double residual = 0;                  ///< |(E(X) - F, C(X))|
+  double residual = 0;                  ///< |(E(X) - F, C(X))|, in the norm of the problem as the next two
   double residual_equations = 0;        ///< |E(X) - F|
   double residual_complementarity = 0;  ///< |C(X)|, C = Fischer–Burmeister in damped steps
   double step_length = 1;               ///< below 1 only in damped steps
@@ -46,6 +46,7 @@ struct NewtonReport {
   bool converged = false;
   bool settled = true;  ///< false: Newton-min met the residual test with a contact set that still changed, and a residual that says so
   std::string why;      ///< one sentence: why it ended
+  std::string advice;   ///< not converged: one sentence, what to try
   int linear_iterations = 0;                                    ///< total
   std::vector<double> residuals;                                ///< |(E(X^k) - F, C(X^k))|, k = 0 ... steps
   double residual_equations = 0, residual_complementarity = 0;  ///< the parts of the last one
@@ -59,16 +60,17 @@ struct NewtonReport {
 /// leaves the last iterate in X, converged or not.
 ///
 /// **It has converged** as soon as
-/// - |R(X^k)| <= eps_lin |(F, 0)| + absolute tolerance, for k = 0, 1, ... (where (F, 0) = 0: eps_lin |R(X^0)|); in full steps of Newton-min
+/// - |R(X^k)| <= eps_lin |(F, 0)| + absolute tolerance + Problem::noise, for k = 0, 1, ... (where (F, 0) = 0: eps_lin |R(X^0)|), in the
+///   norm of the problem, which makes its rows comparable (Problem::weights); in full steps of Newton-min
 ///   only once what still changes in the contact set is within the residual of the linear solver, or after five such iterates, or
 /// - Newton-min, full step: the contact set at X^k is the one that step k was computed with, the linear solver met its tolerance, and
 ///   |R(X^k)| is no more (at most twice as much, for round-off) than it left behind. With linear E, K, G the last condition holds by
 ///   itself: X^k solves the linear system of its own contact set. With nonlinear E it says that nothing is left to linearize.
 ///
 /// **The linear solver** is stopped at |R_alg| <= eps_alg |B| (Problem::rhs_norm), but never asked for less than a tenth of the absolute
-/// tolerance. Rule `inexact` stops it earlier, asked every `check_every` iterations: at |R_alg|/|B| <= alpha |R(X^{k,i})|/|(F, 0)|. If it
-/// fails once but at least halves the linear residual, the step is taken and the next system is the second try; two failures in a row or
-/// a worse one end the run.
+/// tolerance and of the round-off, nor for more than 14 digits; below the round-off at X^k, what stagnates is solved. Rule `inexact` stops
+/// it earlier, asked every `check_every` iterations: at |R_alg|/|B| <= alpha |R(X^{k,i})|/|(F, 0)|. If it fails once but at least halves
+/// the linear residual, the step is taken and the next system is the second try; two failures in a row or a worse one end the run.
 ///
 /// **The rule `adaptive`** (docs/methods/estimates.md) stops the linear solver, asked every `check_every` iterations (seldomer where the
 /// residual shows that it is still far away, unless `stopping/estimate` wants to see every look), and the Newton loop
@@ -100,6 +102,8 @@ struct NewtonReport {
 /// - `line search`: damped steps first; Fischer–Burmeister stays damped to the end.
 /// - `hybrid`: as `none`; damped steps also, from the iterate where the undamped ones began, when |R| is not finite, or for ten successive
 ///   steps has been above its value ten steps before.
+///
+/// Undamped steps that lead to |R| > 1e20 max(|R^0|, |(F, 0)|) diverge: the run ends, not converged, or goes on damped (`hybrid`).
 ///
 /// max iterations = 0 evaluates nothing and returns not converged. NaN in the problem's answers ends the run, not converged.
 NewtonReport newton(Problem& problem, algebra::Vector& X, const NewtonParams& newton, const StoppingParams& stopping, int check_every,

@@ -11,7 +11,8 @@ enum class Start { cold, nested };
 enum class Globalization { none, line_search, hybrid };
 enum class Scaling { none, physical };
 
-/// Block `newton/initial`: the functions a cold start begins with; nothing given is zero inside. They are evaluated by the model:
+/// Block `newton/initial`: the functions a cold start begins with; nothing given is zero inside, or the height
+/// closest to zero at which the membranes are held. They are evaluated by the model:
 /// u1 and u2 are the two membranes, u is the one over an obstacle.
 struct InitialParams {
   std::optional<core::Formula> u, u1, u2, lambda;

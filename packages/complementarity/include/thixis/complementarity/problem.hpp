@@ -30,15 +30,23 @@ class Problem {
   /// Sets up A = [E'(X); a_l K_l' + b_l G_l'].
   virtual void linearize(const algebra::Vector& X, const algebra::Vector& a, const algebra::Vector& b) = 0;
   /// Solves A dX = -R, R = [E(X) - F; C]: dX is overwritten (the loop starts from zero, that is, from X). `stop.tolerance` bounds the
-  /// residual of that system, `stop.criterion` sees the full recovered dX^i.
+  /// residual of that system in the norm |·| below, `stop.criterion` sees the full recovered dX^i. A problem that knows how far its
+  /// linearization reaches may shorten dX, row by row, and says so in the report.
   virtual algebra::LinearReport solve(const algebra::Vector& R, algebra::Vector& dX, const algebra::LinearStop& stop) = 0;
 
-  /// |(F, 0)|: what residuals are compared with.
+  /// Residuals are measured as |R| = (sum over the rows of (w R)²)^½. Rows of different dimension or of different size need weights w that
+  /// make them comparable: fills w, on map(), or returns false where every w is 1. Asked once per run of `newton`.
+  virtual bool weights(algebra::Vector&) const { return false; }
+  /// |(F, 0)|: what residuals are compared with, the size of what acts.
   virtual double reference_norm() const = 0;
+  /// What |R(X)| may be for no other reason than the rounding of its terms: nobody is asked for less.
+  virtual double noise(const algebra::Vector&) const { return 0; }
+  /// The size of the gaps by which ties are told (see ActiveSet); the largest argument at any point by default. Collective.
+  virtual double gap_size(const algebra::Vector& X, const algebra::Vector& K, const algebra::Vector& G, const algebra::Vector& s) const;
 
   /// |B| of the Newton system A X^k = B = A X^{k-1} - R in terms of X, with the A of the last `linearize` at X and R the residual there:
   /// what linear residuals are compared with. Default: |(F, 0)|, which is |B| wherever E, K and G are linear and K, G homogeneous (both
-  /// C-functions are then homogeneous, too: a K + b G = C); |R| where (F, 0) = 0. Override it where that is far off.
+  /// C-functions are then homogeneous, too: a K + b G = C); 0 stands for |R|. Override it where that is far off.
   virtual double rhs_norm(const algebra::Vector& X, const algebra::Vector& R) const;
 
   /// Nonlinear smoothing: `sweeps` cheap local corrections of X towards the solution, which they leave as it is. They settle the edge of

@@ -46,11 +46,15 @@ class FeasiblePair {
     View<double*> contact;   ///< (lambda, s_1 - s_2)_K
     bool at_points = false;  ///< whether in some cell of this rank a pointwise move or the contact term is what a quadrature makes of it
   };
+  /// What becomes of gaps that s_N leaves open where lambda presses: `pressed` closes them as far as that makes |||s - u_h|||² +
+  /// 2 (lambda, s_1 - s_2) less (docs/methods/estimates.md, 4.2b). In time s is to be `kept` as it is at either end of a step.
+  enum class Gaps { kept, pressed };
   /// u: coefficients of each membrane; those of a conforming space take Space::lift of the data on the held boundary (Bernstein: brought in
   /// order, docs/methods/membranes.md, 5). Over an obstacle only u[0] is read. `lambda`: the non-negative multiplier, densities of degree
   /// `degree` <= 6 in modal coefficients (owned cell, dim P_degree). Overwrites `parts`, which may be empty at first. Gaps that count less
   /// than `small` in a cell, as a part of |||s - u_h|||²_K and of 2 (lambda, s_1 - s_2)_K, are bounded more coarsely. Collective.
-  void evaluate(const method::Coefficients (&u)[2], const ConstCellTable& lambda, int degree, Parts& parts, double small = 0) const;
+  void evaluate(const method::Coefficients (&u)[2], const ConstCellTable& lambda, int degree, Parts& parts, double small = 0,
+                Gaps gaps = Gaps::kept) const;
 
   // -- in time (docs/methods/parabolic_estimates.md) ------------------------------------------------------------------------------
   /// The pair for the boundary data at another time; what does not depend on them is shared. Collective.

@@ -61,7 +61,7 @@ class Discretization {
   virtual complementarity::Problem& problem() = 0;
   virtual Sizes sizes() const = 0;
 
-  /// X0 of a cold start: the deck's or the case's initial values, zero otherwise.
+  /// X0 of a cold start: the deck's or the case's initial values, otherwise zero or the height closest to zero that is held.
   virtual Teuchos::RCP<algebra::Vector> cold_start() const = 0;
   /// X0 from the solution on the next coarser mesh of the hierarchy.
   virtual Teuchos::RCP<algebra::Vector> nested_start(const Discretization& coarse, const algebra::Vector& coarse_X) const = 0;

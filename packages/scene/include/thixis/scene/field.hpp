@@ -38,6 +38,8 @@ class Field {
   virtual bool steady() const { return constant() != nullptr; }
   /// Nothing where it is not known to be a polynomial.
   virtual std::optional<Degree> degree() const { return {}; }
+  /// The size of what cancels in the values: they carry the rounding of numbers of that size.
+  virtual double cancelled() const { return 0; }
 };
 using FieldPtr = std::shared_ptr<const Field>;
 

@@ -1,0 +1,120 @@
+#include "membrane_measure.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace thixis::models {
+namespace {
+
+using algebra::MultiVector;
+using algebra::Vector;
+using Range = Kokkos::RangePolicy<Vector::execution_space>;
+
+/// Rounding errors of a sum S u of some ten terms, in units of S_ll |u_l|.
+constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
+
+auto read(const Vector& v) { return v.getLocalViewDevice(Tpetra::Access::ReadOnly); }
+
+}  // namespace
+
+MembraneMeasure::MembraneMeasure(const MembraneOperator& membranes) : count_(membranes.count), stiffness_(membranes.points()) {
+  const auto kappa = stiffness_.getLocalViewDevice(Tpetra::Access::ReadWrite);
+  for (int alpha = 0; alpha < count_; ++alpha) {
+    diagonal_[alpha] = Teuchos::rcp(new Vector(membranes.map()));
+    membranes.matrix[alpha]->getLocalDiagCopy(*diagonal_[alpha]);
+    diagonal_[alpha]->scale(membranes.factor[alpha]);
+    const auto S = read(*diagonal_[alpha]);
+    Kokkos::parallel_for(
+        "thixis::models::softness", Range(0, kappa.extent_int(0)), KOKKOS_LAMBDA(int l) { kappa(l, 0) += 1 / S(l, 0); });
+  }
+  Kokkos::parallel_for(
+      "thixis::models::stiffness", Range(0, kappa.extent_int(0)), KOKKOS_LAMBDA(int l) { kappa(l, 0) = 1 / kappa(l, 0); });
+}
+
+void MembraneMeasure::set(const MembraneOperator& membranes, const Rest& rest, const Teuchos::RCP<Vector>* body) {
+  height_ = rest.height;
+  std::array<double, 2> force = {0, 0}, stiffness = {0, 0};
+  Vector acting(membranes.map()), on_gap(membranes.map());
+  for (int alpha = 0; alpha < count_; ++alpha) stiffness[alpha] = diagonal_[alpha]->norm1();
+  for (int alpha = 0; alpha < count_; ++alpha) {
+    acting.assign(*membranes.load[alpha]);
+    if (rest.u) membranes.matrix[alpha]->apply(*rest.u->getVector(alpha), acting, Teuchos::NO_TRANS, -membranes.factor[alpha], 1);
+    force[alpha] = acting.norm2();
+    if (body) force[alpha] = std::max(force[alpha], body[alpha]->norm2());
+    const double share = count_ == 1 ? 1 : stiffness[1 - alpha] / (stiffness[0] + stiffness[1]);
+    on_gap.update(alpha == 0 ? share : -share, acting, 1);
+  }
+  // what drives the gap reaches both membranes through contact
+  const double through_contact = on_gap.norm2();
+  reference_ = 0;
+  for (int alpha = 0; alpha < count_; ++alpha) {
+    force[alpha] = std::max(force[alpha], through_contact);
+    reference_ = std::max(reference_, force[alpha]);
+  }
+  if (count_ == 1) reference_ = std::max(reference_, contact_force(membranes, rest.reach));
+  for (int alpha = 0; alpha < count_; ++alpha) weight_[alpha] = count_ == 2 && force[alpha] > 0 ? reference_ / force[alpha] : 1;
+}
+
+/// |(S psi - F)^+| at the contact points: no obstacle exerts more (Lewy and Stampacchia), where a psi out of reach is cut.
+double MembraneMeasure::contact_force(const MembraneOperator& membranes, double reach) const {
+  Vector psi(*membranes.obstacle, Teuchos::Copy), force(*membranes.load[0], Teuchos::Copy);
+  const auto height = psi.getLocalViewDevice(Tpetra::Access::ReadWrite);
+  Kokkos::parallel_for(
+      "thixis::models::in_reach", Range(0, height.extent_int(0)), KOKKOS_LAMBDA(int l) {
+        if (height(l, 0) < reach) height(l, 0) = reach;
+      });
+  membranes.matrix[0]->apply(psi, force, Teuchos::NO_TRANS, membranes.factor[0], -1);
+  const auto pushed = read(force);
+  double sum = 0;
+  Kokkos::parallel_reduce(
+      "thixis::models::contact_force", Range(0, algebra::local_size(*membranes.points())),
+      KOKKOS_LAMBDA(int l, double& squares) { squares += pushed(l, 0) > 0 ? pushed(l, 0) * pushed(l, 0) : 0; }, sum);
+  return std::sqrt(algebra::comm_of(*membranes.map()).sum(sum));
+}
+
+double MembraneMeasure::round_off(const MultiVector& u) const {
+  double all = 0;
+  for (int alpha = 0; alpha < count_; ++alpha) {
+    const auto S = read(*diagonal_[alpha]);
+    const auto x = u.getLocalViewDevice(Tpetra::Access::ReadOnly);
+    double sum = 0;
+    Kokkos::parallel_reduce(
+        "thixis::models::round_off", Range(0, x.extent_int(0)),
+        KOKKOS_LAMBDA(int l, double& squares) {
+          const double force = S(l, 0) * x(l, alpha);
+          squares += force * force;
+        },
+        sum);
+    all += weight_[alpha] * weight_[alpha] * sum;
+  }
+  return rounding * std::sqrt(algebra::comm_of(*u.getMap()).sum(all));
+}
+
+double MembraneMeasure::round_off(int alpha, const MultiVector& u) const {
+  Vector force(u.getMap());
+  force.elementWiseMultiply(1, *diagonal_[alpha], *u.getVector(alpha), 0);
+  return rounding * force.normInf();
+}
+
+double MembraneMeasure::displacement(int alpha, const MultiVector& u) const {
+  const auto x = u.getLocalViewDevice(Tpetra::Access::ReadOnly);
+  const double height = height_[alpha];
+  double worst = 0;
+  Kokkos::parallel_reduce(
+      "thixis::models::displacement", Range(0, algebra::local_size(*stiffness_.getMap())),
+      KOKKOS_LAMBDA(int l, double& largest) {
+        const double moved = x(l, alpha) < height ? height - x(l, alpha) : x(l, alpha) - height;
+        if (largest < moved) largest = moved;
+      },
+      Kokkos::Max<double>(worst));
+  return algebra::comm_of(*u.getMap()).max(std::max(worst, 0.0));
+}
+
+double MembraneMeasure::displacement(const MultiVector& u) const {
+  double worst = 0;
+  for (int alpha = 0; alpha < count_; ++alpha) worst = std::max(worst, displacement(alpha, u));
+  return worst;
+}
+
+}  // namespace thixis::models

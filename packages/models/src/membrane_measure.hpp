@@ -1,0 +1,53 @@
+#pragma once
+#include "membrane_operator.hpp"
+
+namespace thixis::models {
+
+/// Membranes at rest: what moves them from there is what acts.
+struct Rest {
+  const algebra::MultiVector* u = nullptr;  ///< u°_alpha, unknowns; null: zero
+  std::array<double, 2> height = {0, 0};    ///< of each membrane
+  double reach = 0;                         ///< over an obstacle: the membrane comes no lower, whatever the obstacle does
+};
+
+/// By what residuals of membranes are measured: derived in docs/methods/membranes.md, 3. Every scale comes from what acts or can touch,
+/// none from the largest number in the data, so that
+///
+///     |R|² = sum_alpha (w_alpha |R_alpha|)² + sum_l (w_C kappa_l C_l)²,     1/kappa_l = sum_alpha 1/S_alpha,ll,
+///
+/// is a force, changes neither with the origin of heights nor, but for the unit of force, with any other unit, and looks at each membrane
+/// as closely as the forces on it deserve.
+class MembraneMeasure {
+ public:
+  /// The diagonals of the operator's matrices. Collective.
+  explicit MembraneMeasure(const MembraneOperator& membranes);
+
+  /// The weights and the reference, from the operator's loads and, if given, from the forces `body` on each membrane, which count even
+  /// where tension balances them. Collective.
+  void set(const MembraneOperator& membranes, const Rest& rest, const Teuchos::RCP<algebra::Vector>* body = nullptr);
+
+  double weight(int alpha) const { return weight_[alpha]; }                   ///< w_alpha
+  double contact_weight() const { return std::max(weight_[0], weight_[1]); }  ///< w_C
+  double reference() const { return reference_; }                             ///< the size of what acts, as a residual
+  const algebra::Vector& stiffness() const { return stiffness_; }             ///< kappa, on points()
+  const algebra::Vector& diagonal(int alpha) const { return *diagonal_[alpha]; }
+
+  /// What rounding of S u leaves in |R|. Collective.
+  double round_off(const algebra::MultiVector& u) const;
+  /// What it leaves in a row of one membrane, at worst. Collective.
+  double round_off(int alpha, const algebra::MultiVector& u) const;
+  /// max_l |u_alpha,l - height_alpha| at the contact points: how far a membrane is moved. Collective.
+  double displacement(int alpha, const algebra::MultiVector& u) const;
+  double displacement(const algebra::MultiVector& u) const;  ///< … of all
+
+ private:
+  double contact_force(const MembraneOperator& membranes, double reach) const;
+
+  int count_;
+  std::array<double, 2> weight_ = {1, 1}, height_ = {0, 0};
+  double reference_ = 0;
+  Teuchos::RCP<algebra::Vector> diagonal_[2];
+  algebra::Vector stiffness_;
+};
+
+}  // namespace thixis::models
