@@ -6,5 +6,6 @@ add_library(thixis_warnings INTERFACE)
 target_compile_options(thixis_warnings INTERFACE -Wall -Wextra -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wno-missing-field-initializers
   $<$<BOOL:${THIXIS_WARNINGS_AS_ERRORS}>:-Werror>
   $<$<BOOL:${THIXIS_SANITIZE}>:-fsanitize=address,undefined ${THIXIS_NOT_SANITIZED} -fno-omit-frame-pointer -Wno-maybe-uninitialized>)
-target_link_options(thixis_warnings INTERFACE $<$<BOOL:${THIXIS_SANITIZE}>:-fsanitize=address,undefined>)
+# The sanitizer loads libraries in the program's place, and finds those beside it by the older kind of run path only.
+target_link_options(thixis_warnings INTERFACE $<$<BOOL:${THIXIS_SANITIZE}>:-fsanitize=address,undefined -Wl,--disable-new-dtags>)
 target_compile_definitions(thixis_warnings INTERFACE $<$<BOOL:${THIXIS_ASSERTIONS}>:THIXIS_ASSERTIONS>)

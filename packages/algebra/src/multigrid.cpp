@@ -98,7 +98,8 @@ Teuchos::RCP<Matrix> relaxed(const Matrix& A, const Vector& coupled, const Vecto
 
 /// The maker of cycles in the library of MueLu, which is loaded here, once. Throws std::runtime_error.
 MueluCycle* muelu_cycle() {
-  static void* const library = dlopen("libthixis_muelu.so", RTLD_NOW | RTLD_LOCAL);
+  static void* library = nullptr;
+  if (!library) library = dlopen("libthixis_muelu.so", RTLD_NOW | RTLD_LOCAL);
   void* const maker = library ? dlsym(library, muelu_cycle_name) : nullptr;
   if (!maker) throw std::runtime_error(dlerror());
   return reinterpret_cast<MueluCycle*>(maker);

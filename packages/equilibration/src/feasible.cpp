@@ -275,8 +275,8 @@ struct FeasiblePair::Impl {
   }
   /// Set up when it is first asked for. Collective.
   Pressing& pressing() {
-    if (!pressing_) pressing_ = std::make_unique<Pressing>(space, kernel, held_tags(problem.boundary[0]), of_jumps());
-    return *pressing_;
+    if (!known_pressing) known_pressing = std::make_unique<Pressing>(space, kernel, held_tags(problem.boundary[0]), of_jumps());
+    return *known_pressing;
   }
 
   /// Gaps below are round-off. Collective.
@@ -303,7 +303,7 @@ struct FeasiblePair::Impl {
   std::unique_ptr<BoundaryLift> lift;
   std::optional<Averages> averages;
   View<double*> averaged[2];
-  std::unique_ptr<Pressing> pressing_;
+  std::unique_ptr<Pressing> known_pressing;
 };
 
 FeasiblePair::FeasiblePair(const method::PolynomialSpace& space, const Problem& problem) : impl_(std::make_unique<Impl>(space, problem)) {}
@@ -374,7 +374,7 @@ FeasiblePair::Way FeasiblePair::way(const method::Coefficients (&u)[2], const Co
   const FeasibleParts& kernel = impl_->kernel;
   const bool averages = impl_->averages.has_value();
   int below = 0;
-  const auto above = s_c[0], under = s_c[1];
+  const auto &above = s_c[0], &under = s_c[1];
   const auto of_cells = kernel.of_cells;
   Kokkos::parallel_reduce(
       "thixis::equilibration::any_below", Kokkos::RangePolicy<>(0, cells),
@@ -518,7 +518,7 @@ std::size_t FeasiblePair::bytes() const {
   return of(impl_->data[0], impl_->data[1], impl_->averaged[0], impl_->averaged[1], k.theta, k.move_tension, k.lift.place, k.lift.energy,
             k.lift.products, k.deviation.place, k.deviation.bound, k.deviation.at_points, k.energy.mu.at_points[0],
             k.energy.mu.at_points[1]) +
-         (impl_->averages ? of(k.of_cells) : 0) + (impl_->pressing_ ? impl_->pressing_->bytes() : 0);
+         (impl_->averages ? of(k.of_cells) : 0) + (impl_->known_pressing ? impl_->known_pressing->bytes() : 0);
 }
 
 }  // namespace thixis::equilibration

@@ -108,7 +108,7 @@ struct NegativePart {
     }
     int below = 0;
     for (double& value : v) below += (value -= d) < 0;
-    if (below == 0 || below == 3) return below / 3;
+    if (below == 0 || below == 3) return below == 3 ? 1 : 0;
     for (int a = 0; a < 3; ++a)  // the corner that is alone on its side
       if ((v[a] < 0) == (below == 1)) {
         const double cut = v[a] / (v[a] - v[(a + 1) % 3]) * (v[a] / (v[a] - v[(a + 2) % 3]));

@@ -46,7 +46,7 @@ bool comes_apart(const FeasibleParts& kernel, LocalIndex K) {
 
 /// Whether the gap of s_N is nowhere below |D|, by its Bernstein coefficients.
 bool is_open(const FeasibleParts& kernel, LocalIndex K) {
-  double gap[reference::max_functions], c[reference::max_functions];
+  double gap[reference::max_functions] = {}, c[reference::max_functions] = {};
   const int n = kernel.functions.size();
   for (int l = 0; l < n; ++l) {
     const LocalIndex e = kernel.of_cells(K, l);
