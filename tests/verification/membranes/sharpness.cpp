@@ -83,35 +83,29 @@ namespace {
 
 const std::map<std::string, std::string> wave = {{"u", "0.3*sin(x+2*y)"}, {"x", "0.3*cos(x+2*y)"}, {"y", "0.6*cos(x+2*y)"}};
 
+/// Both membranes are the wave, pressed on each other by 2 + xy: with what else the scene has.
+drive::RunParams one_wave(std::map<std::string, std::string> scene, int level) {
+  for (const std::string u : {"u1", "u2"}) {
+    scene[u] = wave.at("u");
+    for (const std::string d : {"x", "y"}) scene[u + "_" + d] = wave.at(d);
+  }
+  scene["lambda"] = "2+x*y";
+  return data(scene, level);
+}
+
 /// Two membranes on each other everywhere, also where they are held: there boundary nodes have no multiplier. Their moments against vertex
 /// functions of degree 2, which have no mean, are of both signs.
 drive::RunParams contact_everywhere(int level) {
-  return data({{"f1", "1.5*sin(x+2*y)-(2+x*y)"},
-               {"f2", "1.5*sin(x+2*y)+(2+x*y)"},
-               {"u1", wave.at("u")},
-               {"u1_x", wave.at("x")},
-               {"u1_y", wave.at("y")},
-               {"u2", wave.at("u")},
-               {"u2_x", wave.at("x")},
-               {"u2_y", wave.at("y")},
-               {"lambda", "2+x*y"}},
-              level);
+  return one_wave({{"f1", "1.5*sin(x+2*y)-(2+x*y)"}, {"f2", "1.5*sin(x+2*y)+(2+x*y)"}}, level);
 }
 
 /// The same with tensions that vary, each in its way: what the data on the boundary have beyond their interpolant is lifted differently.
 drive::RunParams varying_tensions(int level) {
-  return data({{"mu1", "1+x"},
-               {"mu2", "2-y"},
-               {"f1", "(1+x)*1.5*sin(x+2*y)-0.3*cos(x+2*y)-(2+x*y)"},
-               {"f2", "(2-y)*1.5*sin(x+2*y)+0.6*cos(x+2*y)+(2+x*y)"},
-               {"u1", wave.at("u")},
-               {"u1_x", wave.at("x")},
-               {"u1_y", wave.at("y")},
-               {"u2", wave.at("u")},
-               {"u2_x", wave.at("x")},
-               {"u2_y", wave.at("y")},
-               {"lambda", "2+x*y"}},
-              level);
+  return one_wave({{"mu1", "1+x"},
+                   {"mu2", "2-y"},
+                   {"f1", "(1+x)*1.5*sin(x+2*y)-0.3*cos(x+2*y)-(2+x*y)"},
+                   {"f2", "(2-y)*1.5*sin(x+2*y)+0.6*cos(x+2*y)+(2+x*y)"}},
+                  level);
 }
 
 /// A membrane on an obstacle that is no polynomial, everywhere.
