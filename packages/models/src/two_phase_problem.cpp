@@ -162,7 +162,7 @@ TwoPhaseProblem::TwoPhaseProblem(const TwoPhaseOperator& flow, const FlowScales&
                                  Teuchos::RCP<const Vector> origin)
     : flow_(flow), scales_(scales), origin_(std::move(origin)), coordinates_(coordinates_of(flow)), solver_(params) {
   int faces = 0;
-  const auto kind = flow.face_kind();
+  const auto& kind = flow.face_kind();
   Kokkos::parallel_reduce(
       "thixis::models::open", Cells(0, flow.grid().faces),
       KOKKOS_LAMBDA(LocalIndex F, int& sum) { sum += kind(F) == scene::FlowBoundaryKind::state; }, faces);
