@@ -65,7 +65,8 @@ double integral(const method::PolynomialSpace& space, const scene::Field& force,
     const auto weights = on_host(block.weight);
     const auto last = on_host(at_end);
     for (int k = 0; k < 3 * pieces; ++k) {
-      method::evaluate(force, begin + (k / 3 + place[k % 3]) / pieces * (end - begin), block, between);
+      const int piece = k / 3;
+      method::evaluate(force, begin + (piece + place[k % 3]) / pieces * (end - begin), block, between);
       const auto now = on_host(between);
       for (LocalIndex c = 0; c < block.cells && block.first + c < owned; ++c)
         for (int i = offset(c); i < offset(c + 1); ++i)

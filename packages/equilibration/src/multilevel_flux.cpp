@@ -139,7 +139,8 @@ struct MultilevelFlux::Impl {
   }
 
   std::vector<Family> families_below(int j, int q, std::map<std::vector<mesh::ChildShape>, CutMatrices>& known) const {
-    const auto& [parent, shape] = ancestry.levels[j];
+    const auto& parent = ancestry.levels[j].parent;
+    const auto& shape = ancestry.levels[j].shape;
     const bool at_leaves = direct && j + 1 == static_cast<int>(ancestry.levels.size());
     std::vector<LocalIndex> cell_of_leaf;
     if (at_leaves) {

@@ -144,13 +144,13 @@ struct StepBound::Impl : BoundParts {
   bool density_of(double factor, const CellTable& a, double other, const CellTable& b) const {
     if (a.extent(0) == 0 && b.extent(0) == 0) return false;
     const auto det = metric;
-    const CellTable out = remaining, first_table = a, second_table = b;
+    const CellTable out = remaining;
     Kokkos::parallel_for(
         "thixis::equilibration::density_of_way", Kokkos::RangePolicy<>(0, owned), KOKKOS_LAMBDA(int K) {
           for (int m = 0; m < out.extent_int(1); ++m) {
             double sum = 0;
-            if (first_table.extent(0) > 0) sum += factor * first_table(K, m);
-            if (second_table.extent(0) > 0) sum += other * second_table(K, m);
+            if (a.extent(0) > 0) sum += factor * a(K, m);
+            if (b.extent(0) > 0) sum += other * b(K, m);
             out(K, m) = det(K).det * sum;
           }
         });
