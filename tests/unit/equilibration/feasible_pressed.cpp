@@ -51,15 +51,11 @@ TEST_P(Pressed, gaps_at_vertices_are_closed_where_the_multiplier_can_close_them)
   // mu_1 mu_2/(mu_1 + mu_2) |grad (u_1 - u_2)|²
   double energy = 0;
   Sampler sample(*V);
-  const auto host = mesh::on_host(mesh);
-  const auto rule = reference::triangle_quadrature(2);
-  for (LocalIndex K = 0; K < mesh.owned_cells; ++K)
-    for (int q = 0; q < rule.size(); ++q) {
-      sample.at(K, rule.point[2 * q], rule.point[2 * q + 1]);
-      const Sample slope = sample(sample.coefficients(u[0], K));
-      energy += 0.75 * 2 * mesh::cell_area(host.coordinates, host.cell_vertices, K) * rule.weight[q] *
-                (slope.gradient[0] * slope.gradient[0] + slope.gradient[1] * slope.gradient[1]);
-    }
+  at_points(mesh, 2, [&](double weight, const PointOfCell& at) {
+    sample.at(at);
+    const Sample slope = sample(sample.coefficients(u[0], at.cell));
+    for (const double component : slope.gradient) energy += 0.75 * weight * component * component;
+  });
   energy = mesh.comm.sum(energy);
   EXPECT_GT(kept.contact, 1e-4);
   EXPECT_NEAR(pressed.energy, energy, 1e-9 * energy);
@@ -110,23 +106,14 @@ double height(double x, double y) { return 0.3 * std::sin(x + 2 * y) + 0.2 * x *
 
 /// |||psi - psi_I|||², psi_I the interpolant.
 double energy_of_interpolation(const PolynomialSpace& V, const Coefficients& psi) {
-  const auto host = mesh::on_host(V.mesh());
-  const auto rule = reference::triangle_quadrature(20);
   Sampler sample(V);
   double sum = 0;
-  for (LocalIndex K = 0; K < V.mesh().owned_cells; ++K)
-    for (int q = 0; q < rule.size(); ++q) {
-      const double xi = rule.point[2 * q], eta = rule.point[2 * q + 1], lambda[3] = {1 - xi - eta, xi, eta};
-      double x = 0, y = 0;
-      for (int a = 0; a < 3; ++a) {
-        x += lambda[a] * host.coordinates(host.cell_vertices(K, a), 0);
-        y += lambda[a] * host.coordinates(host.cell_vertices(K, a), 1);
-      }
-      sample.at(K, xi, eta);
-      const Sample slope = sample(sample.coefficients(psi, K));
-      const double d[2] = {0.3 * std::cos(x + 2 * y) + x * x * x * x - slope.gradient[0], 0.6 * std::cos(x + 2 * y) - slope.gradient[1]};
-      sum += 2 * mesh::cell_area(host.coordinates, host.cell_vertices, K) * rule.weight[q] * (d[0] * d[0] + d[1] * d[1]);
-    }
+  at_points(V.mesh(), 20, [&](double weight, const PointOfCell& at) {
+    sample.at(at);
+    const Sample slope = sample(sample.coefficients(psi, at.cell));
+    const double wave = 0.3 * std::cos(at.x + 2 * at.y);
+    sum += weight * (std::pow(wave + std::pow(at.x, 4) - slope.gradient[0], 2) + std::pow(2 * wave - slope.gradient[1], 2));
+  });
   return V.mesh().comm.sum(sum);
 }
 
@@ -205,7 +192,6 @@ TEST(ObstacleThatJumps, the_contact_term_counts_the_whole_gap) {
 TEST(ObstacleThatJumps, the_majorant_is_nowhere_below_it_and_contact_points_stay_in_its_range) {
   const auto levels = square(1);
   const auto& mesh = levels.finest();
-  const auto host = mesh::on_host(mesh);
   const auto psi = scene::formula(step);
   for (const Nodes family : {Nodes::gauss_lobatto, Nodes::bernstein})
     for (int p = 2; p <= 4; ++p) {
@@ -217,15 +203,12 @@ TEST(ObstacleThatJumps, the_majorant_is_nowhere_below_it_and_contact_points_stay
       const auto above = majorant(*V, nodes, jumps, I, std::vector<double>(I.size(), 1));
       if (above.empty()) continue;
       Sampler sample(*V);
-      densely(mesh, 10, [&](double, LocalIndex K, double xi, double eta) {
+      densely(mesh, 10, [&](double, const PointOfCell& at) {
         std::vector<double> c(V->basis().size());
-        for (std::size_t l = 0; l < c.size(); ++l) c[l] = above[nodes.of_cells(K, l)];
-        sample.at(K, xi, eta);
-        const double lambda[3] = {1 - xi - eta, xi, eta};
-        double x = 0;
-        for (int a = 0; a < 3; ++a) x += lambda[a] * host.coordinates(host.cell_vertices(K, a), 0);
-        if (jumps.at(K)) {
-          EXPECT_GE(sample(c).value, step(x, 0) - 1e-12) << x;
+        for (std::size_t l = 0; l < c.size(); ++l) c[l] = above[nodes.of_cells(at.cell, l)];
+        sample.at(at);
+        if (jumps.at(at.cell)) {
+          EXPECT_GE(sample(c).value, step(at.x, at.y) - 1e-12) << at.x;
         }
       });
     }
