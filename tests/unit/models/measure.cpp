@@ -135,7 +135,7 @@ TEST_F(Measure, an_obstacle_counts_by_what_it_can_exert_and_only_within_reach) {
   EXPECT_GT(exerted, 0.1);
   EXPECT_NEAR(measured(over, {nullptr, {0, 0}, -1e3}).reference(), exerted, 1e-12);
 
-  const FieldPtr none = scene::constant(-1e10);
+  const FieldPtr none = scene::formula([](double x, double y) { return -1e10 * (1 + x * x + y); });
   const MembraneOperator free = membranes({2, 0}, {force(1), nullptr}, zero_, none);
   EXPECT_EQ(measured(free, {nullptr, {0, 0}, 0}).reference(), free.load[0]->norm2());
   const MembraneOperator pressed = membranes({2, 0}, {force(-1), nullptr}, zero_, none);
