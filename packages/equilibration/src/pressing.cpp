@@ -155,7 +155,7 @@ void Pressing::integrate_deviation(const FeasibleParts& kernel, const std::vecto
 }
 
 void Pressing::operator()(const FeasibleParts& kernel) {
-  if (closed_.extent(0) == 0 && cost_.empty()) return;
+  if (import_.is_null()) return;
   const auto host = mesh::on_host(mesh_);
   Columns of_vertices = columns();
   for (LocalIndex K = 0; K < mesh_.owned_cells; ++K) {

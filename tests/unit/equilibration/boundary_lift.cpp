@@ -55,16 +55,13 @@ TEST(BoundaryLift, with_the_interpolant_it_takes_the_values_of_the_data) {
         for (int i = 0; i < 3; ++i) {
           if (host.face_tag(host.cell_faces(K, i)) < 0) continue;
           for (int m = 0; m <= 10; ++m) {
-            double lambda[3] = {}, x = 0, y = 0, value = 0;
+            double lambda[3] = {}, value = 0;
             lambda[(i + 1) % 3] = m / 10.0;
             lambda[(i + 2) % 3] = 1 - m / 10.0;
-            for (int a = 0; a < 3; ++a) {
-              x += lambda[a] * host.coordinates(host.cell_vertices(K, a), 0);
-              y += lambda[a] * host.coordinates(host.cell_vertices(K, a), 1);
-            }
-            g->evaluate({1, &x, &y}, 0, &value);
-            sample.at(K, lambda[1], lambda[2]);
-            const double s = sample(sample.coefficients(u, K)).value + (*lifted.lift)(0, k, lambda[1], lambda[2]).value;
+            const PointOfCell at = point_of(host, K, lambda[1], lambda[2]);
+            g->evaluate({1, &at.x, &at.y}, 0, &value);
+            sample.at(at);
+            const double s = sample(sample.coefficients(u, K)).value + (*lifted.lift)(0, k, at.xi, at.eta).value;
             EXPECT_NEAR(s, value, 1e-12);
           }
         }
@@ -131,11 +128,12 @@ TEST(BoundaryLift, cells_count_what_is_lifted_and_clipped) {
     for (LocalIndex k = 0; k < lifted.lift->cells().extent_int(0); ++k) place[lifted.lift->cells()(k)] = k;
     std::vector<double> whole2(mesh.owned_cells, 0.0), contact(mesh.owned_cells, 0.0);
     Sampler sample(*lifted.V);
-    densely(mesh, 32, [&](double weight, LocalIndex K, double xi, double eta) {
+    densely(mesh, 32, [&](double weight, const PointOfCell& at) {
+      const LocalIndex K = at.cell;
       if (place[K] < 0) return;
-      sample.at(K, xi, eta);
+      sample.at(at);
       const Sample upper = sample(sample.coefficients(u[0], K)), lower = sample(sample.coefficients(u[1], K));
-      const auto L1 = (*lifted.lift)(0, place[K], xi, eta), L2 = (*lifted.lift)(1, place[K], xi, eta);
+      const auto L1 = (*lifted.lift)(0, place[K], at.xi, at.eta), L2 = (*lifted.lift)(1, place[K], at.xi, at.eta);
       const double gap = upper.value - lower.value + L1.value - L2.value;
       for (int d = 0; d < 2; ++d) {
         const double slope = gap < 0 ? upper.gradient[d] - lower.gradient[d] + L1.gradient[d] - L2.gradient[d] : 0;

@@ -67,30 +67,48 @@ inline FeasiblePair::Problem two_membranes(const mesh::Mesh& mesh, const FieldPt
   return {2, {mu1, mu2}, {everywhere(mesh, g1), everywhere(mesh, g2)}, nullptr};
 }
 
-/// Densities of a function, of that degree: (owned cell, dim P_degree).
-inline CellTable density_of(const mesh::Mesh& mesh, const FieldPtr& f, int degree) {
+/// A point of the reference triangle in an owned cell.
+struct PointOfCell {
+  LocalIndex cell;
+  double xi, eta, x, y;
+};
+inline PointOfCell point_of(const mesh::HostMesh& host, LocalIndex K, double xi, double eta) {
+  const double lambda[3] = {1 - xi - eta, xi, eta};
+  PointOfCell at{K, xi, eta, 0, 0};
+  for (int a = 0; a < 3; ++a) {
+    at.x += lambda[a] * host.coordinates(host.cell_vertices(K, a), 0);
+    at.y += lambda[a] * host.coordinates(host.cell_vertices(K, a), 1);
+  }
+  return at;
+}
+
+/// f(weight, point) at the points of a rule of that order in every owned cell; the weights sum to |K|.
+template <class F>
+void at_points(const mesh::Mesh& mesh, int order, F f) {
   const auto host = mesh::on_host(mesh);
-  const auto rule = reference::triangle_quadrature(12);
-  const int n = reference::dimension(degree);
-  const auto phi = reference::Modal(degree).values(rule.size(), rule.point.data());
-  const CellTable g("density", mesh.owned_cells, n);
+  const auto rule = reference::triangle_quadrature(order);
   for (LocalIndex K = 0; K < mesh.owned_cells; ++K) {
     const double det = 2 * mesh::cell_area(host.coordinates, host.cell_vertices, K);
-    for (int q = 0; q < rule.size(); ++q) {
-      const double xi = rule.point[2 * q], eta = rule.point[2 * q + 1], lambda[3] = {1 - xi - eta, xi, eta};
-      double x = 0, y = 0, value = 0;
-      for (int a = 0; a < 3; ++a) {
-        x += lambda[a] * host.coordinates(host.cell_vertices(K, a), 0);
-        y += lambda[a] * host.coordinates(host.cell_vertices(K, a), 1);
-      }
-      f->evaluate({1, &x, &y}, 0, &value);
-      for (int k = 0; k < n; ++k) g(K, k) += det * rule.weight[q] * value * phi[q * n + k];
-    }
+    for (int q = 0; q < rule.size(); ++q) f(det * rule.weight[q], point_of(host, K, rule.point[2 * q], rule.point[2 * q + 1]));
   }
+}
+
+/// Densities of a function, of that degree: (owned cell, dim P_degree).
+inline CellTable density_of(const mesh::Mesh& mesh, const FieldPtr& f, int degree) {
+  const reference::Modal modal(degree);
+  const int n = reference::dimension(degree);
+  const CellTable g("density", mesh.owned_cells, n);
+  at_points(mesh, 12, [&](double weight, const PointOfCell& at) {
+    const double point[2] = {at.xi, at.eta};
+    double value = 0;
+    f->evaluate({1, &at.x, &at.y}, 0, &value);
+    const auto phi = modal.values(1, point);
+    for (int k = 0; k < n; ++k) g(at.cell, k) += weight * value * phi[k];
+  });
   return g;
 }
 
-/// f(weight, cell, xi, eta) at the centroids and f of 4^levels equal parts of every owned cell; the weights sum to |K|.
+/// The same at the centroids of sides² equal parts of every owned cell.
 template <class F>
 void densely(const mesh::Mesh& mesh, int sides, F f) {
   const auto host = mesh::on_host(mesh);
@@ -98,8 +116,8 @@ void densely(const mesh::Mesh& mesh, int sides, F f) {
     const double weight = mesh::cell_area(host.coordinates, host.cell_vertices, K) / (sides * sides);
     for (int i = 0; i < sides; ++i)
       for (int j = 0; i + j < sides; ++j) {
-        f(weight, K, (i + 1.0 / 3) / sides, (j + 1.0 / 3) / sides);
-        if (i + j + 1 < sides) f(weight, K, (i + 2.0 / 3) / sides, (j + 2.0 / 3) / sides);
+        f(weight, point_of(host, K, (i + 1.0 / 3) / sides, (j + 1.0 / 3) / sides));
+        if (i + j + 1 < sides) f(weight, point_of(host, K, (i + 2.0 / 3) / sides, (j + 2.0 / 3) / sides));
       }
   }
 }
@@ -111,11 +129,10 @@ struct Sample {
 class Sampler {
  public:
   explicit Sampler(const PolynomialSpace& V) : V_(V), host_(mesh::on_host(V.mesh())) {}
-  void at(LocalIndex K, double xi, double eta) {
-    K_ = K;
-    const double point[2] = {xi, eta};
+  void at(const PointOfCell& place) {
+    const double point[2] = {place.xi, place.eta};
     table_ = V_.basis().tabulate(1, point);
-    geometry_ = mesh::cell_geometry(host_.coordinates, host_.cell_vertices, K);
+    geometry_ = mesh::cell_geometry(host_.coordinates, host_.cell_vertices, place.cell);
   }
   Sample operator()(const std::vector<double>& c) const {
     Sample sample;
@@ -135,7 +152,6 @@ class Sampler {
  private:
   const PolynomialSpace& V_;
   mesh::HostMesh host_;
-  LocalIndex K_ = 0;
   reference::Tabulation table_;
   mesh::CellGeometry geometry_{};
 };

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "meshes.hpp"
+#include "thixis/mesh/remoteness.hpp"
 #include "thixis/mesh/statistics.hpp"
 
 namespace thixis::mesh {
@@ -99,6 +100,21 @@ TEST(bounding_box, is_that_of_all_ranks) {
   EXPECT_EQ(box.upper[1], 2);
   EXPECT_EQ(box.side(1), 1.5);
   EXPECT_NEAR(box.diagonal(), std::hypot(3, 1.5), 1e-15);
+}
+
+TEST(remoteness, is_the_distance_from_the_origin_in_widths_in_any_unit_order_and_direction) {
+  const auto of = [](double x, double y, double unit, int first) {
+    const double points[3][2] = {{x, y}, {x + 2, y}, {x, y + 0.5}};
+    return remoteness(3, [&](int i, int d) { return unit * points[(i + first) % 3][d]; });
+  };
+  for (int first = 0; first < 3; ++first)
+    for (const double unit : {1.0, 1e-9, -1e6}) {
+      EXPECT_NEAR(of(1000, 7, unit, first), 501, 1e-9);
+      EXPECT_NEAR(of(-1000, 7, unit, first), 500, 1e-9);
+      EXPECT_NEAR(of(3, -4000, unit, first), 2000, 1e-9);
+      EXPECT_NEAR(of(-1, 0, unit, first), 0.5, 1e-12);
+    }
+  EXPECT_EQ(remoteness(2, [](int, int) { return 5.0; }), 0);
 }
 
 }  // namespace thixis::mesh

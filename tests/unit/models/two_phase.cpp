@@ -392,6 +392,26 @@ TEST(TwoPhaseIncrements, are_shortened_cell_by_cell) {
   EXPECT_DOUBLE_EQ(largest(), 1e-3);
 }
 
+/// A row of A and what is left in it may have any unit.
+TEST(TwoPhaseIncrements, that_a_residual_stands_for_have_the_units_of_unknowns) {
+  const core::Comm comm;
+  const auto first = static_cast<GlobalIndex>(2 * comm.rank());
+  const auto map = algebra::map_of(std::vector<GlobalIndex>{first, first + 1}, comm);
+  for (const double unit : {1.0, 1e-9, 1e12}) {
+    algebra::Matrix A(map, 2);
+    Vector r(map);
+    for (int i = 0; i < 2; ++i) {
+      const double scale = i == 0 ? unit : 1 / unit;
+      const GlobalIndex columns[] = {first, first + 1};
+      const double values[] = {i == 0 ? -2 * scale : 0.5 * scale, i == 0 ? 0.5 * scale : -2 * scale};
+      A.insertGlobalValues(first + i, 2, values, columns);
+      r.replaceGlobalValue(first + i, comm.rank() == comm.size() - 1 && i == 1 ? -6e-3 * scale : 1e-3 * scale);
+    }
+    A.fillComplete();
+    EXPECT_NEAR(largest_left(A, r), 3e-3, 1e-15) << unit;
+  }
+}
+
 TEST(TwoPhaseEvolution, refuses_parts_of_the_boundary_and_probes_that_are_not_there) {
   scene::TwoPhaseScene scene = catalogued("gas injection");
   scene.boundary["lid"];
