@@ -99,7 +99,7 @@ class AssembledSolver final : public ConstrainedSolver {
   }
 
   GlobalIndex nonzeros() const override {
-    return static_cast<GlobalIndex>(blocks_.fields * blocks_.fields * membranes_.matrix[0]->getGlobalNumEntries());
+    return blocks_.fields * blocks_.fields * static_cast<GlobalIndex>(membranes_.matrix[0]->getGlobalNumEntries());
   }
 
  private:
