@@ -135,11 +135,13 @@ void of_stopping(Uses& uses) {
       .when("stopping/time scale", flow, for_flow)
       .when(
           "stopping/time scale", [](const P& p) { return p.estimated(); }, "stopping/rule = adaptive or stopping/estimate = true")
-      .when("stopping/friedrichs constant", stationary, at_rest)
+      .when("stopping/friedrichs constant", membranes, for_membranes)
+      // at rest by the bound of the literature, in time by the bound itself
       .when(
-          "stopping/friedrichs constant", [](const P& p) { return p.stopping.estimate.value_or(false); }, "stopping/estimate = true")
+          "stopping/friedrichs constant", [](const P& p) { return p.stopping.estimate.value_or(false) || (parabolic(p) && p.estimated()); },
+          "stopping/estimate = true")
       .when(
-          "stopping/friedrichs constant", [](const P& p) { return of_method(p, MethodName::fem); }, "method/name = fem")
+          "stopping/friedrichs constant", [](const P& p) { return parabolic(p) || of_method(p, MethodName::fem); }, "method/name = fem")
       .when("adapt", membranes, for_membranes)
       .when(
           "adapt/theta", [](const P& p) { return !p.adapt || p.adapt->marking == Marking::dorfler || p.adapt->theta == 1; },

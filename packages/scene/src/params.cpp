@@ -262,7 +262,9 @@ const core::Schema<DataParams>& DataParams::schema() {
           .parameter("mu", &DataParams::mu, "Model obstacle: tension of the membrane; positive, without it 1.")
           .parameter("f", &DataParams::f, "Model obstacle: force on the membrane; without it 0.")
           .parameter("g", &DataParams::g, "Model obstacle: height of the membrane on the boundary, at least psi; without it that of u.")
-          .parameter("psi", &DataParams::psi, "Model obstacle: height of the obstacle; must be given. It should be continuous; on an edge where it jumps the upper height counts.")
+          .parameter("psi", &DataParams::psi,
+                     "Model obstacle: height of the obstacle; must be given. It should be continuous; on an edge where it jumps the upper "
+                     "height counts.")
           .parameter("u", &DataParams::u, "Model obstacle: exact solution, if known.")
           .parameter("u_x", &DataParams::u_x, "Model obstacle: derivative of u in x; without it differences of u.")
           .parameter("u_y", &DataParams::u_y, "Model obstacle: derivative of u in y; without it differences of u.")
@@ -271,7 +273,8 @@ const core::Schema<DataParams>& DataParams::schema() {
           .parameter(
               "degree", &DataParams::degree, core::between(0, 30),
               "Names the data as exact: mu, f, g, t and psi are polynomials of at most this degree (in x and y, and in t) in every "
-              "cell of the mesh and on either side of the interface. Not needed where an expression is one polynomial: that is seen. "
+              "cell of the mesh, or on either side of the interface: then the bound is up to quadrature of the data all the same. Not "
+              "needed where an expression is one polynomial: that is seen. "
               "docs/methods/estimates.md, 8, has what it is good for.")
           .parameter("centre", &DataParams::centre, core::entries(2), "The point from which r is measured.")
           .values("constants", &DataParams::constants,
@@ -305,8 +308,8 @@ const core::Schema<SceneParams>& SceneParams::schema() {
           .block("data", &SceneParams::data, DataParams::schema())
           .block("flow", &SceneParams::flow, FlowParams::schema())
           .parameter("interface", &SceneParams::interface,
-                     "Expression whose zero set are the curves across which data jump, a product for several; integrals are exact in the "
-                     "cells that it cuts.")
+                     "Expression whose zero set are the curves across which data jump, a product for several; integrals follow them in the "
+                     "cells that they are seen to cut.")
           .blocks("boundary", &SceneParams::boundary, BoundaryParams::schema())
           .check([](const SceneParams& params, core::Problems& problems) {
             if (!params.case_name && problems.given("case")) return;  // a case that does not exist is reported already

@@ -20,6 +20,9 @@ struct Part {
 };
 using Known = std::optional<Part>;
 
+/// Powers of powers leave every range of integers; from `most` on it makes no difference how high a degree is.
+Degree bounded(int space, int time, bool whole) { return {std::min(space, Degree::most), std::min(time, Degree::most), whole}; }
+
 Known number(double value) { return Part{{}, Powers::even, value}; }
 Known variable(int in_space, int in_time) { return Part{{in_space, in_time, true}, Powers::even, {}}; }
 
@@ -42,7 +45,7 @@ Known pieces(const Known& a, const Known& b) {
 }
 Known product(const Known& a, const Known& b) {
   if (!a || !b) return {};
-  return Part{{a->degree.space + b->degree.space, a->degree.time + b->degree.time, a->degree.whole && b->degree.whole},
+  return Part{bounded(a->degree.space + b->degree.space, a->degree.time + b->degree.time, a->degree.whole && b->degree.whole),
               product(a->of_r, b->of_r),
               {}};
 }
@@ -54,7 +57,7 @@ Known power(const Known& a, const Known& b) {
   if (!b->value || *b->value < 0 || *b->value > most || *b->value != std::floor(*b->value)) return {};
   const int n = static_cast<int>(*b->value);
   const bool even = n == 0 || (n % 2 == 0 && a->of_r == Powers::odd);
-  return Part{{n * a->degree.space, n * a->degree.time, a->degree.whole}, even ? Powers::even : a->of_r, {}};
+  return Part{bounded(n * a->degree.space, n * a->degree.time, a->degree.whole), even ? Powers::even : a->of_r, {}};
 }
 
 /// Reads the text by the precedences of core::Expression; gives up where it meets something else.

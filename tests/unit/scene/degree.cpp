@@ -142,6 +142,37 @@ TEST(Degree, is_never_below_that_of_the_function) {
   EXPECT_GE(found, 500);
 }
 
+/// 64^6 = 2^36 is 0 in 32 bits, and 64^5 = 2^30 is half of what they hold.
+TEST(Degree, of_powers_of_powers_saturates) {
+  const auto tower = [](std::string text, int floors, const std::string& power = "64") {
+    for (int k = 0; k < floors; ++k) text = "(" + text + ")^" + power;
+    return text;
+  };
+  std::string long_product = "x^100";
+  for (int k = 0; k < 300; ++k) long_product += "*x^100*t^100";
+  for (const auto& [text, expected] :
+       std::map<std::string, std::string>{{"x^100*y^100", "200,0"},
+                                          {tower("x", 1), "64,0"},
+                                          {tower("x", 2), "1000,0"},
+                                          {tower("1 - (x - 0.47)^2", 5), "1000,0"},
+                                          {tower("1 - (x - 0.47)^2", 6), "1000,0"},
+                                          {tower("1 - (x - 0.47)^2", 31, "2"), "1000,0"},
+                                          {"-8 - 1e7*" + tower("1 - (x - 0.47)^2", 6), "1000,0"},
+                                          {tower("1 + 1e-10*t", 6), "0,1000"},
+                                          {tower("t*x", 8), "1000,1000"},
+                                          {tower("r", 6), "1000,0"},
+                                          {tower("r", 6) + "*r", "none"},
+                                          {tower("x", 5) + "*" + tower("y", 5) + "*" + tower("x - y", 5), "1000,0"},
+                                          {"1/" + tower("1 - 1e-10*x", 6), "none"},
+                                          {"x^" + tower("1 - 1e-10*x", 6), "none"},
+                                          {"x^(3*0 + " + tower("1 - 1e-10*x", 6) + ")", "none"},
+                                          {tower("1 - 1e-10*x", 6) + "^x", "none"},
+                                          {"sin(" + tower("1 - 1e-10*x", 6) + ")", "none"},
+                                          {long_product, "1000,1000"}})
+    EXPECT_EQ(words(degree(text)), expected) << text;
+  EXPECT_EQ(words(degree("x < R ? " + tower("x", 6) + " : 0", 30)), "30,0 in pieces");
+}
+
 TEST(Degree, deep_texts_prove_nothing_and_do_no_harm) {
   std::string text = "x";
   for (int k = 0; k < 1000; ++k) text = "(" + text + ")";

@@ -325,6 +325,48 @@ TEST(Promise, of_pieces_that_meet_at_faces_is_guaranteed_when_the_deck_names_the
   }
 }
 
+/// (1 - (x - 0.47)²)^(2^36) is 1 on a line and 0 elsewhere: a degree that no integer of 32 bits holds.
+TEST(Promise, of_powers_of_powers_is_none) {
+  const auto tower = [](const std::string& text) { return "((((((" + text + ")^64)^64)^64)^64)^64)^64"; };
+  for (const Functions& functions :
+       {Functions{{"data/f", "-8 - 1e7*" + tower("1 - (x - 0.47)^2")}, {"data/psi", "0"}},
+        Functions{{"data/f", "-8*" + tower("1 - 1e-10*x")}, {"data/psi", "0"}},
+        Functions{{"data/mu", "1 + " + tower("1 - 1e-10*x")}, {"data/psi", "0"}},
+        Functions{{"data/f", "-8/" + tower("1 - 1e-10*x")}, {"data/psi", "0"}}, Functions{{"data/psi", "-" + tower("1 - (x - 0.47)^2")}}}) {
+    auto held = functions;
+    held["data/g"] = "0.1";
+    const Solved run = solve(scene_of("obstacle", held, by(method::MethodName::fem, 1)));
+    EXPECT_TRUE(run.outcome.solved);
+    EXPECT_EQ(run.outcome.estimate->promise, Promise::up_to_quadrature) << functions.begin()->second;
+  }
+}
+
+/// A disk between the points at which the level set is looked at: no cell counts as cut, and all that is seen of the data is one constant.
+TEST(Promise, of_pieces_along_an_interface_is_none_though_no_cell_is_seen_to_be_cut) {
+  const Functions disk = {{"data/g", "0.1"}, {"data/psi", "0"}, {"data/centre", "{0.43,0.47}"}, {"data/degree", "0"}};
+  for (const auto& [name, text] : std::map<std::string, std::string>{{"f", "r < 0.01 ? -80000 : -8"}, {"mu", "r < 0.01 ? 1e6 : 1"}}) {
+    auto functions = disk;
+    functions["data/" + name] = text;
+    functions["interface"] = "r - 0.01";
+    EXPECT_EQ(solve(scene_of("obstacle", functions, by(method::MethodName::fem, 1))).outcome.estimate->promise, Promise::up_to_quadrature)
+        << name;
+  }
+}
+
+/// Of data that are one polynomial each a curve takes nothing, wherever it lies; of pieces it does so even where it follows faces.
+TEST(Promise, of_whole_polynomials_does_not_depend_on_the_interface) {
+  Random random(6);
+  const auto whole = far_apart(Polynomial(3, random));
+  for (const char* interface : {"r - 0.3", "r - 0.001", "x - 0.5"}) {
+    auto functions = whole;
+    functions["interface"] = interface;
+    EXPECT_EQ(judged(scene_of("membranes", functions, by(method::MethodName::fem, 1))).promise, Promise::guaranteed) << interface;
+    functions["data/f2"] = "x < 0.5 ? -1 : -y";
+    functions["data/degree"] = "1";
+    EXPECT_EQ(judged(scene_of("membranes", functions, by(method::MethodName::fem, 1))).promise, Promise::up_to_quadrature) << interface;
+  }
+}
+
 TEST(Promise, a_degree_that_the_data_visibly_do_not_have_is_refused) {
   for (const auto& [what, functions] :
        std::map<std::string, Functions>{{"f", {{"data/f", "sin(9*x)"}, {"data/g", "2"}, {"data/psi", "0"}}},

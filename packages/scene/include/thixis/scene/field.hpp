@@ -20,9 +20,10 @@ struct Points {
 
 /// What is known of a function that is a polynomial in every cell of the mesh, or on either side of the interface in a cell that it cuts.
 struct Degree {
-  int space = 0;      ///< at most, in x and y together
-  int time = 0;       ///< at most, in t
-  bool whole = true;  ///< the same polynomial everywhere
+  static constexpr int most = 1000;  ///< stands for itself and all above: larger ones are not told apart
+  int space = 0;                     ///< at most, in x and y together
+  int time = 0;                      ///< at most, in t
+  bool whole = true;                 ///< the same polynomial everywhere
 };
 
 /// A scalar function of place and time, asked for at many points at once. Not to be evaluated by several threads at a time.
