@@ -154,7 +154,7 @@ struct BrokenFluxes {
 
   KOKKOS_FUNCTION void operator()(LocalIndex K) const {
     const PhaseState& U = states(K);
-    double g[potentials][most_faces];
+    double g[potentials][most_faces] = {};
     for (int j = 0; j < potentials; ++j) {
       for (int f = 0; f < cells.count(K); ++f) g[j][f] = given_flux(K, f) ? 0 : derivative(K, f, j);
       for (int f = 0; f < cells.count(K); ++f)
@@ -248,9 +248,9 @@ struct CellErrors {
     }
     out(K, bent) = distances(K, of_dissolved);
     const PhaseState &U = states(K), &B = states_before(K);
-    const double G = laws.undersaturation(U) / content, G_B = laws.undersaturation(B) / content;
-    out(K, appearing) = cells.volume(K) * product(positive(U.s_g), positive(B.s_g), positive(G), positive(G_B));
-    out(K, disappearing) = cells.volume(K) * product(positive(-U.s_g), positive(-B.s_g), positive(-G), positive(-G_B));
+    const double G = laws.undersaturation(U) / content, G_before = laws.undersaturation(B) / content;
+    out(K, appearing) = cells.volume(K) * product(positive(U.s_g), positive(B.s_g), positive(G), positive(G_before));
+    out(K, disappearing) = cells.volume(K) * product(positive(-U.s_g), positive(-B.s_g), positive(-G), positive(-G_before));
   }
 };
 
