@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Teuchos_RCP.hpp>
+#include <cmath>
 
 #include "checkpoint.hpp"
 #include "expectations.hpp"
@@ -58,18 +59,22 @@ Found found(const RunParams& params, const models::Model& model, const models::E
   return found;
 }
 
-/// Where most of a bound comes from the lengths of the steps, it says nothing of the mesh.
+/// Where most of a bound comes from the lengths of the steps, it says nothing of the mesh. No number: `time` is a sum of roots, the bound the
+/// root of a sum, and the part may be larger than the whole.
 std::string time_decides(const complementarity::Estimate& bound) {
   if (!(bound.time.value_or(0) > 0.7 * bound.total)) return "";
-  return fmt::format(", most of it the error in time, {:.4e}: shorter steps (time/step) make it smaller, a finer mesh does not",
-                     *bound.time);
+  return ", most of it for the lengths of the steps: shorter ones (time/step) make it smaller, a finer mesh does not";
 }
 
 /// What is known of the error and of the solution, in clauses.
 std::string qualities(const RunParams& params, const models::Evolution& evolution, const EvolutionOutcome& outcome) {
   std::string clauses;
-  if (const auto error = evolution.energy_error()) clauses += fmt::format("; energy error {:.4e}", *error);
-  if (const auto bound = evolution.estimate_so_far()) clauses += "; " + bound_clause(evolution.bound_name(), *bound) + time_decides(*bound);
+  const auto error = evolution.energy_error();
+  if (error) clauses += fmt::format("; energy error {:.4e}", *error);
+  if (const auto bound = evolution.estimate_so_far()) {
+    const double norm = std::sqrt(outcome.at.time) * evolution.energy_norm(*outcome.X);
+    clauses += "; " + bound_clause(evolution.bound_name(), *bound) + contradiction(*bound, error, norm) + time_decides(*bound);
+  }
   for (const models::Balance& balance : evolution.balances())
     clauses += fmt::format("; {} balanced to {:.1e} in every step", balance.name, balance.worst_step);
   if (outcome.kkt) {
@@ -111,7 +116,7 @@ Verdict judge(const RunParams& params, const models::Model& model, const models:
             outcome.refinement_limited
                 ? "; adapt/max levels or adapt/max unknowns kept the mesh from becoming finer: allow more, or take a higher method/degree"
                 : "",
-            outcome.steps_too_long ? "; most of it is the error in time: take shorter steps (time/step)" : "",
+            outcome.steps_too_long ? "; most of it is for the lengths of the steps: take shorter ones (time/step)" : "",
             clauses.empty() ? "" : "; besides, not as expected: " + clauses)};
   if (!clauses.empty()) return {ExitCode::target_missed, "solved, but not as expected: " + clauses + "."};
   return {ExitCode::done, fmt::format("solved in {}{}.", effort(outcome.at), qualities(params, evolution, outcome))};

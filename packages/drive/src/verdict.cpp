@@ -21,7 +21,7 @@ std::string solved(const RunParams& params, const Outcome& outcome) {
   std::string sentence = "solved in " + effort(outcome.at);
   if (!outcome.finest.settled) sentence += "; the contact set did not settle; ended by its residual";
   if (outcome.energy_error) sentence += fmt::format("; energy error {:.4e}", *outcome.energy_error);
-  if (outcome.estimate) sentence += "; " + bound(outcome);
+  if (outcome.estimate) sentence += "; " + bound(outcome) + contradiction(*outcome.estimate, outcome.energy_error, outcome.energy_norm);
   if (params.stopping.target) sentence += fmt::format(", as asked for by stopping/target = {:g}", *params.stopping.target);
   else if (!outcome.refinement_ended.empty()) sentence += "; refinement ended by " + outcome.refinement_ended;
   const char* unjudged = outcome.kkt->holds(outcome.kkt_tolerance) ? "" : ", which the rule adaptive does not judge";
@@ -37,6 +37,19 @@ std::string target_missed(const RunParams& params, const Outcome& outcome) {
 
 std::string bound_clause(const std::string& name, const complementarity::Estimate& eta) {
   return fmt::format("{} {:.4e} ({})", name, eta.total, to_text(eta.promise));
+}
+
+std::string contradiction(const complementarity::Estimate& eta, std::optional<double> error, double norm) {
+  constexpr double integrals = 1e-3, differences = 1e-8;  // relative errors of what is called the error
+  if (!error || *error <= (1 + integrals) * eta.total + differences * norm) return "";
+  switch (eta.promise) {
+    case complementarity::Promise::guaranteed:
+      return ", less than the error: the exact solution does not fit the data, or not the polygon that the mesh is";
+    case complementarity::Promise::up_to_quadrature:
+      return ", less than the error: quadrature does not see all of the data, or the exact solution does not fit them";
+    default:
+      return "";
+  }
 }
 
 std::string not_converged(const complementarity::NewtonReport& newton) {

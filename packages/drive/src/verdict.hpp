@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <string>
 
 #include "thixis/core/error.hpp"
@@ -17,6 +18,11 @@ std::string not_in_contact(const complementarity::NewtonReport& newton, const co
 
 /// "energy error at most 1.2345e-02 (guaranteed)": an estimate by its name, with what it promises.
 std::string bound_clause(const std::string& name, const complementarity::Estimate& eta);
+
+/// ", less than the error: …" where the error of an exact solution is above a bound on it, with what may be the reason: no bound of a wrong
+/// problem. Empty where it is not, but for round-off and differences of the exact solution; `norm`: that of the solution, in the same
+/// measure.
+std::string contradiction(const complementarity::Estimate& eta, std::optional<double> error, double norm);
 
 /// Did the run do what was asked, in one sentence.
 Verdict judge(const RunParams& params, const Outcome& outcome);

@@ -21,8 +21,9 @@ std::string bytes_of(const std::string& path, const std::string& name) {
   const std::string instead = "; write the name of a Gmsh mesh relative to the deck.";
   std::error_code failed;
   if (std::filesystem::is_directory(path, failed)) throw FileError(name + " is a folder" + instead);
-  std::ifstream file;
-  if (std::filesystem::is_regular_file(path, failed)) file.open(path, std::ios::binary);
+  if (std::filesystem::exists(path, failed) && !std::filesystem::is_regular_file(path, failed))
+    throw FileError(name + " is no regular file, but a pipe or a device" + instead);
+  std::ifstream file(path, std::ios::binary);
   if (!file.is_open()) throw FileError(name + " can not be opened" + instead);
   const std::uintmax_t size = std::filesystem::file_size(path, failed), most = std::uintmax_t(16) << 30;
   if (failed || size > most)

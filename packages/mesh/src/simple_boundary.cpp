@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 #include "thixis/core/error.hpp"
@@ -13,15 +14,20 @@ struct Boundary {
   HostView<double* [2]> x;
   std::vector<std::array<LocalIndex, 2>> faces;  ///< their vertices
   std::vector<int> degree;                       ///< faces of the boundary at each vertex
+  std::vector<double> shortest;                  ///< length of the shortest face at each vertex
 };
 
 Boundary boundary_of(const Mesh& mesh) {
   const HostMesh host = on_host(mesh);
-  Boundary boundary{host.coordinates, {}, std::vector<int>(mesh.vertices, 0)};
+  Boundary boundary{
+      host.coordinates, {}, std::vector<int>(mesh.vertices, 0), std::vector<double>(mesh.vertices, std::numeric_limits<double>::max())};
   for (LocalIndex F = 0; F < mesh.faces; ++F) {
+    const LocalIndex a = host.face_vertices(F, 0), b = host.face_vertices(F, 1);
+    const double length = std::hypot(boundary.x(b, 0) - boundary.x(a, 0), boundary.x(b, 1) - boundary.x(a, 1));
+    for (const LocalIndex v : {a, b}) boundary.shortest[v] = std::min(boundary.shortest[v], length);
     if (host.face_tag(F) < 0) continue;
-    boundary.faces.push_back({host.face_vertices(F, 0), host.face_vertices(F, 1)});
-    for (const LocalIndex v : boundary.faces.back()) ++boundary.degree[v];
+    boundary.faces.push_back({a, b});
+    for (const LocalIndex v : {a, b}) ++boundary.degree[v];
   }
   return boundary;
 }
@@ -43,11 +49,12 @@ void require_vertices_off_faces(const Boundary& boundary, const std::string& nam
   std::sort(order.begin(), order.end());
 
   for (const auto& [a, b] : boundary.faces) {
-    const double ex = x(b, 0) - x(a, 0), ey = x(b, 1) - x(a, 1), length = std::hypot(ex, ey), near = 1e-9 * length;
+    const double ex = x(b, 0) - x(a, 0), ey = x(b, 1) - x(a, 1), length = std::hypot(ex, ey), nearest = 1e-9 * length;
     const double low = std::min(projection(a), projection(b)), high = std::max(projection(a), projection(b));
-    auto candidate = std::lower_bound(order.begin(), order.end(), std::make_pair(low - near, LocalIndex(-1)));
-    for (; candidate != order.end() && candidate->first <= high + near; ++candidate) {
+    auto candidate = std::lower_bound(order.begin(), order.end(), std::make_pair(low - nearest, LocalIndex(-1)));
+    for (; candidate != order.end() && candidate->first <= high + nearest; ++candidate) {
       const LocalIndex v = candidate->second;
+      const double near = std::min(nearest, 1e-3 * boundary.shortest[v]);  // thin domains are no narrower than their cells
       const double vx = x(v, 0) - x(a, 0), vy = x(v, 1) - x(a, 1);
       const double along = (vx * ex + vy * ey) / length, across = (ex * vy - ey * vx) / length;
       if (v == a || v == b || std::abs(across) > near || along < -near || along > length + near) continue;

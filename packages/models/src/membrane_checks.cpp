@@ -272,8 +272,10 @@ Boundary boundary_of(const scene::MembraneScene& scene, const mesh::Mesh& mesh) 
 void check_held(const scene::MembraneScene& scene, const Boundary& boundary) {
   if (std::find(boundary.dirichlet.begin(), boundary.dirichlet.end(), true) != boundary.dirichlet.end()) return;
   throw core::InputError(
-      fmt::format("scene/boundary: no part of the boundary has kind dirichlet, so the {} free to float away; fix at least one.",
-                  scene.count == 1 ? "membrane is" : "membranes are"));
+      scene.obstacle
+          ? "scene/boundary: no part of the boundary has kind dirichlet; a membrane that nothing but the obstacle can hold is not "
+            "served: fix at least one part."
+          : "scene/boundary: no part of the boundary has kind dirichlet, so the membranes are free to float away; fix at least one.");
 }
 
 void check_functions(const scene::MembraneScene& scene, const std::array<scene::FieldPtr, 3>& initial, const method::MethodParams& method,

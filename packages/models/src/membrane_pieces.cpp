@@ -173,11 +173,13 @@ void check_pieces(const scene::MembraneScene& scene, const Boundary& boundary, c
   const Pieces pieces(boundary, mesh);
   if (pieces.free().empty()) return;
   const std::size_t others = pieces.free().size() - 1;
-  throw core::InputError(fmt::format(
-      "scene/boundary: nothing holds the piece of the mesh {}{}: no part of it has kind dirichlet, so the {} free to float away there; "
-      "hold each piece somewhere, or leave it out of the mesh.",
-      pieces.place(*pieces.free().begin()), others > 0 ? fmt::format(" (and {} more)", others) : "",
-      scene.count == 1 ? "membrane is" : "membranes are"));
+  throw core::InputError(
+      fmt::format("scene/boundary: nothing holds the piece of the mesh {}{}: no part of it has kind dirichlet, {}; hold each piece "
+                  "somewhere, or leave it "
+                  "out of the mesh.",
+                  pieces.place(*pieces.free().begin()), others > 0 ? fmt::format(" (and {} more)", others) : "",
+                  scene.obstacle ? "and a membrane that nothing but the obstacle can hold is not served"
+                                 : "so the membranes are free to float away there"));
 }
 
 }  // namespace thixis::models

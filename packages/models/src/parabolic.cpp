@@ -181,6 +181,13 @@ class ParabolicEvolution final : public Evolution {
     return std::sqrt(step_error(at(X)));
   }
 
+  double energy_norm(const Vector& X) const override {
+    const Pair now = at(X);
+    double square = 0;
+    for (int alpha = 0; alpha < 2; ++alpha) square += space().energy(*scene_.tension[alpha], now.u[alpha]);
+    return std::sqrt(square);
+  }
+
   /// Nothing before the first step and after one that was not estimated.
   std::optional<complementarity::Estimate> estimate_so_far() const override {
     if (!bounded_ || !bound_) return std::nullopt;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "cases.hpp"
@@ -189,19 +190,44 @@ void examine_two_phase(const SceneParams& params, const Report& report) {
 
 }  // namespace
 
+namespace {
+
+/// Those that expressions may use.
+Constants with_right_names(const Constants& constants) {
+  Constants right;
+  for (const auto& constant : constants) try {
+      core::Expression("0", {"x", "y", "t", "r"}, {constant});
+      right.insert(constant);
+    } catch (const core::InputError&) {
+      // reported by examine_constants
+    }
+  return right;
+}
+
+}  // namespace
+
 void examine_formula(const std::string& path, const core::Formula& formula, const Constants& constants, const Report& report) {
   if (formula.empty()) return;
   try {
     const core::Expression parsed(formula.text, {"x", "y", "t", "r"}, constants);
     if (parsed.constant() && !std::isfinite(parsed({0, 0, 0, 0}))) report(path, "'" + formula.text + "' is not a finite number.");
   } catch (const core::InputError& error) {
+    // wrong names are reported where they stand, and not by every expression that may use them
+    const Constants right = with_right_names(constants);
+    if (right.size() < constants.size()) return examine_formula(path, formula, right, report);
     report(path, error.what());
   }
 }
 
 void examine_constants(const std::string& path, const Constants& constants, const Report& report) {
-  for (const char* taken : {"x", "y", "t", "r", "pi"})
-    if (constants.count(taken) > 0) report(path + "/" + taken, "this name has a meaning in every expression already; take another one.");
+  const Constants right = with_right_names(constants);
+  for (const auto& [name, value] : constants) {
+    if (right.count(name) > 0) continue;
+    const bool is_name = std::all_of(name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; });
+    report(path + "/" + name, is_name && std::isdigit(static_cast<unsigned char>(name[0])) == 0
+                                  ? "this name has a meaning in every expression already; take another one."
+                                  : "this can not be the name of a constant; use letters, digits and _, a letter first.");
+  }
 }
 
 std::string to_text(Model model) {

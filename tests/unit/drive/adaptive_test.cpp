@@ -63,6 +63,25 @@ TEST(Adaptive, refines_until_the_bound_meets_the_target_and_no_further) {
   EXPECT_NE(sentence.find("(guaranteed)"), std::string::npos) << sentence;
 }
 
+/// Errors are integrals by a rule, of differences of the exact solution.
+TEST(Verdict, says_where_the_error_contradicts_the_bound) {
+  using complementarity::Promise;
+  const auto says = [](Promise promise, std::optional<double> error) {
+    complementarity::Estimate eta;
+    eta.total = 0.5, eta.promise = promise;
+    return contradiction(eta, error, 3);
+  };
+  EXPECT_NE(says(Promise::guaranteed, 0.66).find("the exact solution does not fit the data"), std::string::npos);
+  EXPECT_NE(says(Promise::up_to_quadrature, 0.66).find("quadrature does not see all of the data"), std::string::npos);
+  EXPECT_EQ(says(Promise::indicator, 0.66), "");
+  for (const Promise promise : {Promise::guaranteed, Promise::up_to_quadrature, Promise::indicator}) {
+    EXPECT_EQ(says(promise, 0.5 + 1e-9), "");
+    EXPECT_EQ(says(promise, 0.4), "");
+    EXPECT_EQ(says(promise, std::nullopt), "");
+  }
+  EXPECT_EQ(contradiction({}, 1e-10, 1), "") << "differences";
+}
+
 TEST(Adaptive, solves_the_mesh_of_the_deck_only_if_that_is_good_enough) {
   const Solved run(with_target(2 * first_bound()));
   EXPECT_EQ(run.solved, std::vector<int>{1});

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <iomanip>
 #include <sstream>
 
 #include "meshes.hpp"
@@ -167,6 +168,26 @@ TEST(gmsh_file, with_two_nodes_at_one_place_is_refused) {
   EXPECT_EQ(
       refusal(with_elements({"2 2 0 1 1 2 3", "2 2 0 1 7 6 8"})),
       ": two nodes of the boundary lie at (1, 0); give a conforming mesh (in Gmsh: merge duplicate nodes or entities with Coherence).");
+}
+
+/// 1e-5 wide and 1e5 high: what is near beside a face of 3e4 is far beside one of 3e-6.
+TEST(gmsh_file, of_a_thin_domain_is_read) {
+  constexpr int n = 3;
+  std::ostringstream file;
+  file << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n" << (n + 1) * (n + 1) << '\n' << std::setprecision(17);
+  for (int j = 0; j <= n; ++j)
+    for (int i = 0; i <= n; ++i) file << 1 + i + (n + 1) * j << ' ' << 1e-5 * i / n << ' ' << 1e5 * j / n << " 0\n";
+  file << "$EndNodes\n$Elements\n" << 2 * n * n << '\n';
+  int number = 0;
+  const auto triangle = [&](int a, int b, int c) { file << ++number << " 2 2 0 1 " << a << ' ' << b << ' ' << c << '\n'; };
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i) {
+      const int a = 1 + i + (n + 1) * j, c = a + n + 1;
+      triangle(a, a + 1, c + 1);
+      triangle(a, c + 1, c);
+    }
+  file << "$EndElements\n";
+  EXPECT_EQ(import(Scratch(file.str()).path()).finest().global_cells, 2 * n * n);
 }
 
 TEST(gmsh_file, whose_domain_touches_itself_is_refused) {

@@ -188,6 +188,11 @@ TEST(MembraneScene, refuses_what_can_not_be_meant) {
   EXPECT_NE(message_of([&] { membrane_scene(params); }).find("scene/data/constants/r: this name has a meaning in every expression already"),
             std::string::npos);
   params = by_height("1", "0");
+  params.data->constants = {{"sin", 1}, {"c", 1}};
+  params.data->f1.text = "c*x";
+  EXPECT_EQ(message_of([&] { membrane_scene(params); }),
+            "scene/data/constants/sin: this name has a meaning in every expression already; take another one.");
+  params = by_height("1", "0");
   params.model = Model::signorini;
   EXPECT_EQ(message_of([&] { membrane_scene(params); }),
             "scene/model: this scene is about membranes; write 'membranes', 'obstacle' or 'parabolic membranes'.");

@@ -44,6 +44,39 @@ class Run:
             return list(csv.DictReader(file))
 
 
+OBSTACLE = {"scene/model": "obstacle", "scene/data/psi": "-1"}
+
+
+class Bounds(unittest.TestCase):
+    """What the last sentence says of error and bound."""
+
+    def verdict(self, name, **entries):
+        SCRATCH.mkdir(parents=True, exist_ok=True)
+        deck = SCRATCH / f"{name}.xml"
+        deck.write_text('<ParameterList name="thixis"/>')
+        run = Run(name, [f"{path}={value}" for path, value in {**entries, "stopping/estimate": "true"}.items()], deck=deck)
+        self.assertEqual(run.exit_code, 0, run.out + run.err)
+        return run.summary["verdict"]
+
+    def test_an_exact_solution_of_the_disk_is_none_of_the_polygon(self):
+        of_the_disk = {**OBSTACLE, "scene/data/u": "1 - r^2", "scene/data/f": "4", "mesh/generator": "disk", "mesh/rings": "1", "method/degree": "2"}
+        clause = "(guaranteed), less than the error: the exact solution does not fit the data, or not the polygon that the mesh is"
+        self.assertIn(clause, self.verdict("disk", **of_the_disk, **{"scene/data/g": "0"}))
+        of_the_polygon = self.verdict("polygon", **of_the_disk)
+        self.assertIn("(guaranteed)", of_the_polygon)
+        self.assertNotIn("less than the error", of_the_polygon)
+
+    def test_an_exact_solution_of_other_data_is_named(self):
+        self.assertIn("less than the error", self.verdict("wrong", **{**OBSTACLE, "scene/data/u": "1 + x", "scene/data/f": "-8"}))
+
+    def test_the_part_of_time_is_not_larger_than_the_whole(self):
+        coarse = {"scene/model": "parabolic membranes", "scene/data/f1": "-8", "scene/data/g1": "0.1", "scene/data/g2": "0",
+                  "scene/data/initial/u1": "0.1", "scene/data/initial/u2": "0", "time/step": "0.1", "time/end": "0.05", "method/degree": "2"}
+        verdict = self.verdict("time", **coarse)
+        self.assertIn("most of it for the lengths of the steps", verdict)
+        self.assertEqual(verdict.count("e-01"), 1, verdict)
+
+
 class Results(unittest.TestCase):
     @classmethod
     def setUpClass(cls):

@@ -9,8 +9,8 @@
 
 namespace thixis::equilibration {
 
-/// The guaranteed bound on the error of backward Euler over time (docs/methods/parabolic_estimates.md): u_h is affine in time between the
-/// iterates that were accepted, whatever they are, and
+/// The bound on the error of backward Euler over time (docs/methods/parabolic_estimates.md), guaranteed where doubts() is empty (section 8
+/// there), else up to quadrature of the data: u_h is affine in time between the iterates that were accepted, whatever they are, and
 ///
 ///     ∫_0^{t_N} |||u - u_h|||² dt + |(u - s)(t_N)|² <= |(u - s)(0)|² + sum_n eta_n²,
 ///

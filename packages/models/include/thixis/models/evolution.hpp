@@ -103,6 +103,7 @@ class Evolution {
   virtual std::vector<Balance> balances() const { return {}; }
 
   // Of X at the end of a step, or of X^0.
+  virtual double energy_norm(const algebra::Vector&) const { return 0; }
   virtual complementarity::KktData kkt_data(const algebra::Vector& X) const = 0;
   virtual std::optional<double> front(const algebra::Vector&) const { return {}; }
   virtual std::optional<Contact> contact(const algebra::Vector&) const { return {}; }
