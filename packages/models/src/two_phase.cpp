@@ -59,6 +59,7 @@ class BoundSoFar {
     eta.time = std::sqrt(squares_[4]);
     return eta;
   }
+  bool every_step() const { return every_step_; }
   void save(std::map<std::string, double>& attributes) const {
     attributes["bound_every_step"] = every_step_;
     attributes["bound_any_step"] = any_step_;
@@ -155,6 +156,7 @@ class TwoPhaseEvolution final : public Evolution {
     last_length_ = problem_.step().length;
   }
   std::optional<complementarity::Estimate> estimate_so_far() const override { return bound_so_far_.value(); }
+  bool every_step_estimated() const override { return bound_so_far_.every_step(); }
   std::string bound_name() const override {
     return bound_params_.measure == complementarity::Measure::residual ? "dual norm of the residuals about" : "estimate of the literature";
   }

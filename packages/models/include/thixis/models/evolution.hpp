@@ -96,6 +96,8 @@ class Evolution {
   /// Of the step begun alone, if it ended with X: what `estimate` bounds.
   virtual std::optional<double> step_energy_error(const algebra::Vector&) const { return {}; }
   virtual std::optional<complementarity::Estimate> estimate_so_far() const { return {}; }  ///< where every step was estimated
+  /// Whether no step accepted so far, also before a checkpoint, went without its estimate.
+  virtual bool every_step_estimated() const { return true; }
   /// What keeps it from being guaranteed, a clause each.
   virtual std::vector<std::string> doubts() const { return {}; }
   /// What estimate_so_far() is, in words before a number.
