@@ -88,8 +88,9 @@ class TwoPhaseEvolution final : public Evolution {
         verifier_(flow_.grid(), scene, seconds_per_unit, problem_.scales().pressure),
         probes_(flow_.grid(), probes),
         owed_("thixis::models::owed", flow_.grid().owned_cells),
-        jumps_(scene.jumps) {
-    require_definite_pressure(scene);
+        jumps_(scene.jumps),
+        closed_(is_closed(scene)) {
+    require_definite_pressure();
   }
 
   const core::Comm& comm() const override { return flow_.grid().comm; }
@@ -116,7 +117,7 @@ class TwoPhaseEvolution final : public Evolution {
   double round_off() const override { return problem_.round_off(); }
   void give_up() override { of_step_.reset(); }
   bool predict(Vector& X) override {
-    if (before_last_.is_null()) return false;
+    if (before_last_.is_null()) return start(X);
     Tpetra::deep_copy(X, *predicted(flow_, *before_, *before_last_, problem_.step().length / last_length_));
     return true;
   }
@@ -152,7 +153,7 @@ class TwoPhaseEvolution final : public Evolution {
     balance_.add(found_ ? *found_ : verified(X));
     if (!bound_params_.adaptive) Kokkos::deep_copy(owed_, problem_.left(X));
     bound_so_far_.add(of_step_);
-    before_last_ = before_;
+    before_last_ = before_last_.is_null() && closed_ ? in_equilibrium(flow_, *before_).getConst() : before_;  // no jump is extrapolated
     last_length_ = problem_.step().length;
   }
   std::optional<complementarity::Estimate> estimate_so_far() const override { return bound_so_far_.value(); }
@@ -238,10 +239,22 @@ class TwoPhaseEvolution final : public Evolution {
   static constexpr const char* of_before = " before";
   static constexpr const char* names_of_owed[components] = {"owed water", "owed hydrogen"};
 
+  static bool is_closed(const scene::TwoPhaseScene& scene) {
+    return std::none_of(scene.boundary.begin(), scene.boundary.end(),
+                        [](const auto& part) { return part.second.kind == scene::FlowBoundaryKind::state; });
+  }
+
+  /// The first step. Gas beside water that could dissolve it would leave at once for Newton's method, which takes the smaller of s_g and G
+  /// for zero; without gas the pressure in a closed domain has no level, and the system is singular.
+  bool start(Vector& X) const {
+    if (!closed_) return false;
+    Tpetra::deep_copy(X, *in_equilibrium(flow_, *before_));
+    return true;
+  }
+
   /// Without gas and without a part of the boundary where it is given, the pressure of incompressible water has no level. Collective.
-  void require_definite_pressure(const scene::TwoPhaseScene& scene) const {
-    for (const auto& [tag, part] : scene.boundary)
-      if (part.kind == scene::FlowBoundaryKind::state) return;
+  void require_definite_pressure() const {
+    if (!closed_) return;
     double most = 0;
     {
       const auto x = algebra::host_view(std::as_const(*initial_));
@@ -321,6 +334,7 @@ class TwoPhaseEvolution final : public Evolution {
   TimeStep step_;                        ///< the one begun
   std::optional<FlowFindings> found_;    ///< at the X of the step begun that was judged last
   std::vector<double> jumps_;
+  bool closed_;                             ///< no part of the boundary says what the pressure is
   Teuchos::RCP<const Vector> before_;       ///< X^{n-1} of the step begun
   Teuchos::RCP<const Vector> before_last_;  ///< at the beginning of the last step accepted, whose length is last_length_ [s]; null: none
   double last_length_ = 0;
