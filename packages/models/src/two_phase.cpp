@@ -102,6 +102,10 @@ class TwoPhaseEvolution final : public Evolution {
 
   std::vector<double> jumps() const override { return jumps_; }
   Teuchos::RCP<Vector> initial() override { return Teuchos::rcp(new Vector(*initial_, Teuchos::Copy)); }
+  /// The first time alone: where a later one is wrong, what was computed before it is kept.
+  void check(const std::vector<double>& times) const override {
+    if (!times.empty()) flow_.check(times.front());
+  }
   void begin(const TimeStep& step, const Vector& before) override {
     const core::Region region("assembly");
     FlowStep flow_step = flow_.step(step.begin, step.end, before);
@@ -144,10 +148,13 @@ class TwoPhaseEvolution final : public Evolution {
     return bound_->step_errors();
   }
 
-  std::string objection(const Vector& X, double tolerance, bool conditions) override {
+  Objection objection(const Vector& X, double tolerance, bool conditions) override {
     found_ = verified(X);
-    const std::string why = found_->objection(conditions ? tolerance : std::max(tolerance, unsettled), conditions);
-    return !why.empty() || !conditions ? why : balance_.objection(*found_, tolerance);
+    std::string why = found_->objection(conditions ? tolerance : std::max(tolerance, unsettled), false);
+    if (!why.empty() || !conditions) return {why};
+    why = found_->objection(tolerance, true);
+    if (why.empty()) why = balance_.objection(*found_, tolerance);
+    return {why, !why.empty() && !found_->diverged()};
   }
   void accept(const Vector& X) override {
     balance_.add(found_ ? *found_ : verified(X));

@@ -169,6 +169,13 @@ Teuchos::RCP<Vector> TwoPhaseOperator::initial() const {
   return X;
 }
 
+void TwoPhaseOperator::check(double t) const {
+  grid_.comm.together([&] {
+    for (const auto& [tag, part] : scene_.boundary)
+      if (part.kind == FlowBoundaryKind::state) states_of(part.state, laws_, part_of_boundary(grid_, tag), t, "boundary/" + tag);
+  });
+}
+
 FlowStep TwoPhaseOperator::step(double begin, double end, const Vector& before) const {
   FlowStep step;
   step.length = (end - begin) * seconds_per_unit_;
