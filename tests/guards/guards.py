@@ -321,8 +321,21 @@ def memory():
     assert True in found, "no limit was too small"
 
 
+def drawn():
+    """What is drawn where there is none ends in the true reason, whatever draws it; a state that went astray is called that."""
+    flow, left = DECKS / "decks/flow.xml", "scene/flow/boundary/left"
+    source = ["--set", "scene/flow/hydrogen source=0"]
+    for drawing in (["--set", "scene/flow/hydrogen source=-1e-8"],
+                    [*source, "--set", f"{left}/kind=flux", "--set", f"{left}/hydrogen=-1e-6"]):
+        printed = thixis("run", flow, *drawing, "--output", "drawn", expect=3, says="more of it is drawn from there than there is")
+        assert "larger viscosity" not in printed.splitlines()[-1], printed
+    printed = thixis("run", flow, *source, "--set", "scene/flow/water source=-1e-2", "--output", "drawn", expect=3)
+    verdict = printed.split("not converged: ")[-1]
+    assert "Newton's method diverges" in verdict and "viscosity" not in verdict, verdict
+
+
 shutil.rmtree(scratch, ignore_errors=True)
 scratch.mkdir(parents=True)
 signal.alarm(600)
 {"special_files": special_files, "links": links, "two_runs": two_runs, "sizes": sizes, "extremes": extremes, "words": words,
- "tensions": tensions, "forged": forged, "memory": memory}[scenario]()
+ "tensions": tensions, "forged": forged, "memory": memory, "drawn": drawn}[scenario]()

@@ -150,6 +150,34 @@ def mistaken():
     assert summary("kept")["steps"] == 10
 
 
+def unbounded():
+    """Steps without estimate leave no bound: who asks for one is refused; a rule that only steers goes on, and says so."""
+    half, begin = {"mistaken": (0.2, "scene/data/initial/u1=3"), "flow": (30000, "scene/flow/initial/P=2e6")}[sys.argv[2]]
+    thixis("run", deck, "--output", "cut", "--set", "stopping/rule=exact", "--set", f"time/end={half}", "--set",
+           "output/checkpoint every=1000")
+    before = (scratch / "cut/summary.json").read_text()
+    end = ["--set", f"time/end={2 * half}"]
+
+    def refused(path, *arguments, ranks=1):
+        text = thixis("restart", "cut/checkpoint.h5", *end, *arguments, expect=2, ranks=ranks)
+        assert f"{path}: " in text, text
+        assert (scratch / "cut/summary.json").read_text() == before, "nothing is written by a restart that is refused"
+        return text
+
+    for ranks in (1, 2):
+        text = refused("stopping/estimate", "--set", "stopping/estimate=true", ranks=ranks)
+        assert "ran without stopping/estimate = true" in text and "begin a new run (thixis run)" in text, text
+    refused("expect/bound at most", "--set", "stopping/rule=adaptive", "--set", "expect/bound at most=1")
+    if sys.argv[2] == "mistaken":
+        refused("stopping/target", "--set", "stopping/target=1")
+        thixis("restart", "cut/checkpoint.h5", *end, "--set", "stopping/rule=adaptive", "--output", "steered")
+        found = summary("steered")
+        assert "; no bound on the error: steps before the checkpoint ran without" in found["verdict"], found["verdict"]
+        assert found["estimate"] is None, found
+    text = refused(begin.split("=")[0], "--set", begin)
+    assert "a restart begins with the state of the checkpoint" in text, text
+
+
 def on_other_ranks():
     """From one number of ranks to another, where the solvers leave nothing to differ."""
     exact = ["--set", "stopping/rule=exact", "--set", "stopping/linear tolerance=1e-13", "--set", "stopping/nonlinear tolerance=1e-10"]
@@ -165,4 +193,4 @@ def on_other_ranks():
 
 shutil.rmtree(scratch, ignore_errors=True)
 scratch.mkdir(parents=True)
-{"killed": killed, "terminated": terminated, "on_other_ranks": on_other_ranks, "mistaken": mistaken}[scenario]()
+{"killed": killed, "terminated": terminated, "on_other_ranks": on_other_ranks, "mistaken": mistaken, "unbounded": unbounded}[scenario]()

@@ -17,6 +17,9 @@ using algebra::Vector;
 
 constexpr double unseen = 0.1;  ///< part of the bound so far, in proportion to the time: a hundredth of its square
 
+constexpr double tighter = 1e-2;  ///< tolerances of a solver that has to go on
+constexpr int most_tightenings = 3, most_further_steps = 10;
+
 /// The run from step to step.
 class Run {
  public:
@@ -135,16 +138,46 @@ class Run {
     newton.sweeps = params_.newton.sweeps.value_or(0);
     complementarity::StoppingParams stopping = params_.stopping;
     stopping.absolute_tolerance += evolution_.round_off();
-    out_.last = complementarity::newton(evolution_.problem(), X, newton, stopping, params_.linear.check_every, on_step(step.end),
-                                        [this](const Vector& iterate) { return look(iterate); });
-    out_.at.newton_iterations += out_.last.steps;
-    out_.at.linear_iterations += out_.last.linear_iterations;
-    if (!out_.last.converged || !std::isfinite(algebra::norm2(X)) || objected(X)) return false;
+    refused_ = false;
+    iterate(step, newton, stopping, X);
+    if (!out_.last.converged || !std::isfinite(algebra::norm2(X))) return false;
+    models::Objection objection = objection_to(X);
+    for (int more = 0; objection.too_loose && more < most_tightenings; ++more) {
+      newton.max_iterations = std::min(params_.newton.max_iterations, most_further_steps);
+      if (!tighten(step, newton, stopping, X)) break;
+      objection = objection_to(X);
+    }
+    if (objection) return refuse(objection);
     if (params_.estimated()) {
       const core::Region region("estimate");
       eta_ = out_.last.estimate ? *out_.last.estimate : evolution_.estimate(X);
     }
     return true;
+  }
+
+  void iterate(const models::TimeStep& step, const complementarity::NewtonParams& newton, const complementarity::StoppingParams& stopping,
+               Vector& X) {
+    out_.last = complementarity::newton(evolution_.problem(), X, newton, stopping, params_.linear.check_every, on_step(step.end),
+                                        [this](const Vector& now) { return look(now); });
+    out_.at.newton_iterations += out_.last.steps;
+    out_.at.linear_iterations += out_.last.linear_iterations;
+  }
+
+  /// Goes on from X with smaller tolerances; false where the solver can not. Tolerances relative to the data may be loose where a step
+  /// moves little of what is there, or rows differ in size.
+  bool tighten(const models::TimeStep& step, const complementarity::NewtonParams& newton, complementarity::StoppingParams& stopping,
+               Vector& X) {
+    for (double* tolerance : {&stopping.linear_tolerance, &stopping.nonlinear_tolerance, &stopping.absolute_tolerance})
+      *tolerance *= tighter;
+    const complementarity::NewtonReport before = out_.last;
+    const Vector start(X, Teuchos::Copy);
+    iterate(step, newton, stopping, X);
+    const bool converged = out_.last.converged && std::isfinite(algebra::norm2(X));
+    out_.last.steps += before.steps;
+    out_.last.linear_iterations += before.linear_iterations;
+    if (converged) return true;
+    Tpetra::deep_copy(X, start);
+    return false;
   }
 
   /// The estimate at an iterate, and, for the history, its error.
@@ -155,15 +188,18 @@ class Run {
     return estimate;
   }
 
-  /// Whether the model refuses what the nonlinear solver takes for a solution.
-  bool objected(const Vector& X) {
+  /// What the model has against that which the nonlinear solver takes for a solution.
+  models::Objection objection_to(const Vector& X) {
     const core::Region region("verification");
     const bool conditions = params_.stopping.rule != complementarity::StoppingRule::adaptive;
-    const std::string why = evolution_.objection(X, kkt_tolerance(complementarity::KktData()), conditions);
-    if (why.empty()) return false;
+    return evolution_.objection(X, kkt_tolerance(complementarity::KktData()), conditions);
+  }
+
+  bool refuse(const models::Objection& objection) {
+    refused_ = true;
     out_.last.converged = false;
-    out_.last.why = why;
-    return true;
+    out_.last.why = objection.why;
+    return false;
   }
 
   /// Of the deck, or what the tolerance of the nonlinear solver allows.
@@ -179,13 +215,15 @@ class Run {
       return true;
     }
     ++out_.at.retries;
-    const std::string& advice = out_.last.advice;
-    out_.why = fmt::format(
-        "the step from time {:.6g} to {:.6g} failed, and shorter ones would be below time/smallest = {:.3g}: {} {} Or allow a smaller "
-        "time/smallest.",
-        step.begin, step.end, control_.smallest(), out_.last.why,
-        advice.empty() ? "Try a smaller stopping/linear tolerance or newton/globalization = hybrid." : advice);
+    out_.why = fmt::format("the step from time {:.6g} to {:.6g} failed, and shorter ones would be below time/smallest = {:.3g}: {} {}",
+                           step.begin, step.end, control_.smallest(), out_.last.why, refused_ ? "" : advice() + " ") +
+               "Or allow a smaller time/smallest.";
     return false;
+  }
+
+  /// Sentences of the model say themselves what to try.
+  std::string advice() const {
+    return out_.last.advice.empty() ? "Try a smaller stopping/linear tolerance or newton/globalization = hybrid." : out_.last.advice;
   }
 
   void retry(const models::TimeStep& step, const std::string& why) { retry(step, why, control_.length()); }
@@ -278,6 +316,7 @@ class Run {
   StepControl control_;
   EvolutionOutcome out_;
   bool took_steps_ = false;
+  bool refused_ = false;                          ///< the last attempt ended with an objection of the model
   bool remarked_ = false;                         ///< one remark is enough
   bool at_its_end_ = true;                        ///< X is the end of the step that the evolution knows of, not its begin
   std::optional<double> error_at_look_;           ///< of the step, where its estimate was asked for last

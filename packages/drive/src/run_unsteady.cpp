@@ -11,6 +11,7 @@
 #include "interrupt.hpp"
 #include "step_control.hpp"
 #include "thixis/algebra/tpetra.hpp"
+#include "thixis/core/text.hpp"
 #include "thixis/core/timer.hpp"
 #include "thixis/drive/run.hpp"
 
@@ -66,11 +67,16 @@ std::string time_decides(const complementarity::Estimate& bound) {
   return ", most of it for the lengths of the steps: shorter ones (time/step) make it smaller, a finer mesh does not";
 }
 
+/// Without the shares of all steps there is no bound over all time.
+constexpr const char* not_bounded =
+    "steps before the checkpoint ran without stopping/estimate = true, so that their share in the error is unknown";
+
 /// What is known of the error and of the solution, in clauses.
 std::string qualities(const RunParams& params, const models::Evolution& evolution, const EvolutionOutcome& outcome) {
   std::string clauses;
   const auto error = evolution.energy_error();
   if (error) clauses += fmt::format("; energy error {:.4e}", *error);
+  if (params.estimated() && !evolution.every_step_estimated()) clauses += fmt::format("; no bound on the error: {}", not_bounded);
   if (const auto bound = evolution.estimate_so_far()) {
     const double norm = std::sqrt(outcome.at.time) * evolution.energy_norm(*outcome.X);
     clauses += "; " + bound_clause(evolution.bound_name(), *bound) + contradiction(*bound, error, norm) + time_decides(*bound);
@@ -118,6 +124,8 @@ Verdict judge(const RunParams& params, const models::Model& model, const models:
                 : "",
             outcome.steps_too_long ? "; most of it is for the lengths of the steps: take shorter ones (time/step)" : "",
             clauses.empty() ? "" : "; besides, not as expected: " + clauses)};
+  if (params.stopping.target && !bound)
+    return {ExitCode::target_missed, fmt::format("stopping/target = {:g} can not be judged: {}.", *params.stopping.target, not_bounded)};
   if (!clauses.empty()) return {ExitCode::target_missed, "solved, but not as expected: " + clauses + "."};
   return {ExitCode::done, fmt::format("solved in {}{}.", effort(outcome.at), qualities(params, evolution, outcome))};
 }
@@ -151,6 +159,23 @@ output::Summary summarize(const RunParams& params, const models::Model& model, c
   return summary;
 }
 
+/// Behind steps without estimate no bound can be had; a rule or a step control that only looks at the steps to come may still use theirs.
+void check_unbounded(const RunParams& params) {
+  const std::pair<const char*, bool> asked[] = {{"stopping/target", params.stopping.target.has_value()},
+                                                {"stopping/estimate", params.stopping.estimate.value_or(false)},
+                                                {"expect/bound at most", params.expect.bound_at_most.has_value()},
+                                                {"expect/promise", params.expect.promise.has_value()},
+                                                {"expect/effectivity between", params.expect.effectivity_between.has_value()}};
+  std::vector<std::string> mistakes;
+  for (const auto& [path, given] : asked)
+    if (given)
+      mistakes.push_back(
+          fmt::format("{}: a bound on the error holds for all time from 0, but {}; begin a new run (thixis run) with "
+                      "stopping/estimate = true, or leave this out.",
+                      path, not_bounded));
+  if (!mistakes.empty()) throw core::InputError(core::join(mistakes, "\n"));
+}
+
 /// Throws InputError where the deck leaves nothing to do, or contradicts what the interrupted run has left.
 void check_restart(const output::StoredCheckpoint& stored, const StoredEvolution& from, const RunParams& params, bool goes_on,
                    models::Evolution& evolution) {
@@ -161,6 +186,7 @@ void check_restart(const output::StoredCheckpoint& stored, const StoredEvolution
     throw core::InputError(
         "output/probes: series.csv goes on with the probes it has; leave them as they were, or write to another folder with --output.");
   evolution.restore(stored);  // throws where scene, mesh or method are others
+  if (!evolution.every_step_estimated()) check_unbounded(params);
 }
 
 std::string invitation(const std::string& checkpoint, const EvolutionOutcome& outcome) {

@@ -20,6 +20,13 @@ bool fixed(const std::string& path) {
   return path == "scene/model" || path == "time/unit" || begins_with(path, "mesh/") || begins_with(path, "method/");
 }
 
+/// What only a run from the beginning looks at.
+bool of_the_beginning(const std::string& path) {
+  for (const char* list : {"newton/initial", "scene/data/initial", "scene/flow/initial"})
+    if (path == list || begins_with(path, std::string(list) + "/")) return true;
+  return false;
+}
+
 }  // namespace
 
 void check_unchanged(const output::StoredCheckpoint& stored, const RunParams& params) {
@@ -30,7 +37,7 @@ void check_unchanged(const output::StoredCheckpoint& stored, const RunParams& pa
     if (fixed(path))
       mistakes.push_back(
           fmt::format("{}: the checkpoint '{}' belongs to another model, mesh or method; leave this as it was.", path, stored.path()));
-    if (begins_with(path, "newton/initial/"))
+    if (of_the_beginning(path))
       mistakes.push_back(fmt::format("{}: a restart begins with the state of the checkpoint; leave this as it was.", path));
   }
   if (!mistakes.empty()) throw core::InputError(fmt::format("{}", fmt::join(mistakes, "\n")));

@@ -194,6 +194,8 @@ class ParabolicEvolution final : public Evolution {
     return bound_->so_far();
   }
 
+  bool every_step_estimated() const override { return bounded_ || on_mesh_->time() == 0; }
+
   /// At X^0, and where a run is taken up again, the equations say nothing: the multiplier is judged by its sign alone.
   complementarity::KktData kkt_data(const Vector& X) const override {
     MembraneSolution solution{scene_, space(), on_mesh_->problem(), on_mesh_->body(), on_mesh_->fields(X)};

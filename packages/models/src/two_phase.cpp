@@ -59,6 +59,7 @@ class BoundSoFar {
     eta.time = std::sqrt(squares_[4]);
     return eta;
   }
+  bool every_step() const { return every_step_; }
   void save(std::map<std::string, double>& attributes) const {
     attributes["bound_every_step"] = every_step_;
     attributes["bound_any_step"] = any_step_;
@@ -87,8 +88,9 @@ class TwoPhaseEvolution final : public Evolution {
         verifier_(flow_.grid(), scene, seconds_per_unit, problem_.scales().pressure),
         probes_(flow_.grid(), probes),
         owed_("thixis::models::owed", flow_.grid().owned_cells),
-        jumps_(scene.jumps) {
-    require_definite_pressure(scene);
+        jumps_(scene.jumps),
+        closed_(is_closed(scene)) {
+    require_definite_pressure();
   }
 
   const core::Comm& comm() const override { return flow_.grid().comm; }
@@ -100,6 +102,10 @@ class TwoPhaseEvolution final : public Evolution {
 
   std::vector<double> jumps() const override { return jumps_; }
   Teuchos::RCP<Vector> initial() override { return Teuchos::rcp(new Vector(*initial_, Teuchos::Copy)); }
+  /// The first time alone: where a later one is wrong, what was computed before it is kept.
+  void check(const std::vector<double>& times) const override {
+    if (!times.empty()) flow_.check(times.front());
+  }
   void begin(const TimeStep& step, const Vector& before) override {
     const core::Region region("assembly");
     FlowStep flow_step = flow_.step(step.begin, step.end, before);
@@ -115,7 +121,7 @@ class TwoPhaseEvolution final : public Evolution {
   double round_off() const override { return problem_.round_off(); }
   void give_up() override { of_step_.reset(); }
   bool predict(Vector& X) override {
-    if (before_last_.is_null()) return false;
+    if (before_last_.is_null()) return start(X);
     Tpetra::deep_copy(X, *predicted(flow_, *before_, *before_last_, problem_.step().length / last_length_));
     return true;
   }
@@ -142,19 +148,23 @@ class TwoPhaseEvolution final : public Evolution {
     return bound_->step_errors();
   }
 
-  std::string objection(const Vector& X, double tolerance, bool conditions) override {
+  Objection objection(const Vector& X, double tolerance, bool conditions) override {
     found_ = verified(X);
-    const std::string why = found_->objection(conditions ? tolerance : std::max(tolerance, unsettled), conditions);
-    return !why.empty() || !conditions ? why : balance_.objection(*found_, tolerance);
+    std::string why = found_->objection(conditions ? tolerance : std::max(tolerance, unsettled), false);
+    if (!why.empty() || !conditions) return {why};
+    why = found_->objection(tolerance, true);
+    if (why.empty()) why = balance_.objection(*found_, tolerance);
+    return {why, !why.empty() && !found_->diverged()};
   }
   void accept(const Vector& X) override {
     balance_.add(found_ ? *found_ : verified(X));
     if (!bound_params_.adaptive) Kokkos::deep_copy(owed_, problem_.left(X));
     bound_so_far_.add(of_step_);
-    before_last_ = before_;
+    before_last_ = before_last_.is_null() && closed_ ? in_equilibrium(flow_, *before_).getConst() : before_;  // no jump is extrapolated
     last_length_ = problem_.step().length;
   }
   std::optional<complementarity::Estimate> estimate_so_far() const override { return bound_so_far_.value(); }
+  bool every_step_estimated() const override { return bound_so_far_.every_step(); }
   std::string bound_name() const override {
     return bound_params_.measure == complementarity::Measure::residual ? "dual norm of the residuals about" : "estimate of the literature";
   }
@@ -236,10 +246,22 @@ class TwoPhaseEvolution final : public Evolution {
   static constexpr const char* of_before = " before";
   static constexpr const char* names_of_owed[components] = {"owed water", "owed hydrogen"};
 
+  static bool is_closed(const scene::TwoPhaseScene& scene) {
+    return std::none_of(scene.boundary.begin(), scene.boundary.end(),
+                        [](const auto& part) { return part.second.kind == scene::FlowBoundaryKind::state; });
+  }
+
+  /// The first step. Gas beside water that could dissolve it would leave at once for Newton's method, which takes the smaller of s_g and G
+  /// for zero; without gas the pressure in a closed domain has no level, and the system is singular.
+  bool start(Vector& X) const {
+    if (!closed_) return false;
+    Tpetra::deep_copy(X, *in_equilibrium(flow_, *before_));
+    return true;
+  }
+
   /// Without gas and without a part of the boundary where it is given, the pressure of incompressible water has no level. Collective.
-  void require_definite_pressure(const scene::TwoPhaseScene& scene) const {
-    for (const auto& [tag, part] : scene.boundary)
-      if (part.kind == scene::FlowBoundaryKind::state) return;
+  void require_definite_pressure() const {
+    if (!closed_) return;
     double most = 0;
     {
       const auto x = algebra::host_view(std::as_const(*initial_));
@@ -319,6 +341,7 @@ class TwoPhaseEvolution final : public Evolution {
   TimeStep step_;                        ///< the one begun
   std::optional<FlowFindings> found_;    ///< at the X of the step begun that was judged last
   std::vector<double> jumps_;
+  bool closed_;                             ///< no part of the boundary says what the pressure is
   Teuchos::RCP<const Vector> before_;       ///< X^{n-1} of the step begun
   Teuchos::RCP<const Vector> before_last_;  ///< at the beginning of the last step accepted, whose length is last_length_ [s]; null: none
   double last_length_ = 0;

@@ -18,6 +18,7 @@ TwoPhaseBalance::Account TwoPhaseBalance::added(Account account, int component, 
   account.defect = of_step.defect;
   account.total += of_step.defect;
   account.brought += of_step.brought;
+  account.drawn += of_step.drawn;
   account.in_place = of_step.in_place;
   account.worst = std::max(account.worst, std::abs(account.defect) / reference(component, account));
   return account;
@@ -30,13 +31,16 @@ void TwoPhaseBalance::add(const FlowFindings& found) {
 std::string TwoPhaseBalance::objection(const FlowFindings& found, double tolerance) const {
   for (int c = 0; c < components; ++c) {
     const Account account = added(accounts_[c], c, found);
-    const double counts = std::max(reference(c, account), last_place * account.in_place);
+    const double counts = std::max({reference(c, account), account.drawn, last_place * account.in_place});
     const double lost = std::max(std::abs(account.defect), std::abs(account.total)) / counts;
     if (lost <= tolerance) continue;
     return fmt::format(
         "The {} of the whole domain is out of balance by {:.2e} of {}. Try linear/solver = direct or a smaller stopping/linear tolerance; "
         "where a phase flows so easily that its pressure hardly differs from cell to cell, give it a larger viscosity (scene/flow).",
-        names[c], lost, c == hydrogen && account.brought > 0 ? "what has come in" : "what is there");
+        names[c], lost,
+        account.drawn >= counts                ? "what has been drawn"
+        : c == hydrogen && account.brought > 0 ? "what has come in"
+                                               : "what is there");
   }
   return "";
 }
@@ -65,6 +69,7 @@ std::map<std::string, double> TwoPhaseBalance::save() const {
     saved[name + "_worst"] = account.worst;
     saved[name + "_total"] = account.total;
     saved[name + "_brought"] = account.brought;
+    saved[name + "_drawn"] = account.drawn;
     saved[name + "_in_place"] = account.in_place;
   }
   return saved;
@@ -73,7 +78,8 @@ std::map<std::string, double> TwoPhaseBalance::save() const {
 void TwoPhaseBalance::restore(const output::StoredCheckpoint& stored) {
   for (int c = 0; c < components; ++c) {
     const auto read = [&](const char* what) { return stored.number(std::string(names[c]) + "_" + what); };
-    accounts_[c] = {read("defect"), read("worst"), read("total"), read("brought"), read("in_place")};
+    const bool knows_drawn = stored.has_attribute(std::string(names[c]) + "_drawn");
+    accounts_[c] = {read("defect"), read("worst"), read("total"), read("brought"), knows_drawn ? read("drawn") : 0, read("in_place")};
   }
 }
 

@@ -28,6 +28,7 @@ class TwoPhaseBalance {
     double worst = 0;     ///< relative defect of a step
     double total = 0;     ///< sum of the defects [kg]
     double brought = 0;   ///< by sources and through the boundary, what came in alone [kg]
+    double drawn = 0;     ///< by given sources and fluxes [kg]
     double in_place = 0;  ///< at the end of the last step [kg]
   };
   static double reference(int component, const Account& account);

@@ -19,6 +19,8 @@ double FlowFindings::worst() const {
   return worst;
 }
 
+bool FlowFindings::diverged() const { return !(unbalanced[water].violation <= 1 && unbalanced[hydrogen].violation <= 1); }
+
 std::string FlowFindings::objection(double tolerance, bool conditions) const {
   const auto where = [&](const Worst& of) {
     return dimension == 1 ? fmt::format("in cell {} at {:.6g}", of.cell, of.centre[0])
@@ -46,6 +48,14 @@ std::string FlowFindings::objection(double tolerance, bool conditions) const {
         "less hydrogen enter (scene/flow), or end the run there (time/end).",
         where(dry));
   if (!conditions) return "";
+  if (diverged()) {
+    const int c = unbalanced[water].violation > unbalanced[hydrogen].violation ? water : hydrogen;
+    return fmt::format(
+        "Newton's method diverges: its last state leaves the balance of {} open {}, by {:.2e} times what counts in the step. Perhaps there "
+        "is "
+        "no solution, as where more is drawn than there is or can flow in: let what draws it (scene/flow) become weaker or end before.",
+        names[c], where(unbalanced[c]), unbalanced[c].violation);
+  }
   for (int c : {water, hydrogen})
     if (unbalanced[c].violation > tolerance)
       return fmt::format(

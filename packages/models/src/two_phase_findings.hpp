@@ -35,6 +35,7 @@ struct FlowFindings {
   struct Account {
     double defect = 0;    ///< of the step: what the masses in place have changed by and nothing has brought
     double brought = 0;   ///< what has come in, by sources and through the boundary
+    double drawn = 0;     ///< what given sources and fluxes have taken away
     double in_place = 0;  ///< at the end
   };
   std::array<Account, 2> accounts;
@@ -42,6 +43,9 @@ struct FlowFindings {
   /// Undersaturation G/(H P_ref) of the owned cells.
   std::vector<double> undersaturation;
 
+  /// Whether a balance is open by more than what counts: Newton's method has gone astray, where its tolerance, relative to X, means
+  /// nothing.
+  bool diverged() const;
   /// The worst of what balances and contact conditions miss in a cell.
   double worst() const;
   /// Why this is no solution, in a sentence that says where, and what to write; empty: it is one. `tolerance`: relative; without

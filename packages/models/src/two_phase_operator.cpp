@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "thixis/core/error.hpp"
 #include "thixis/core/text.hpp"
@@ -13,6 +14,8 @@ namespace {
 
 using algebra::Vector;
 using scene::FlowBoundaryKind;
+
+constexpr double negligible = 1e-9;  // of the pressures of which that of the gas is the sum
 
 algebra::MapPtr columns_of(const fv::Grid& grid) {
   std::vector<GlobalIndex> ids;
@@ -71,6 +74,11 @@ std::vector<PhaseState> states_of(const scene::FlowState& state, const TwoPhaseL
       refuse(fmt::format("the gas saturation is {}; it must not be negative, and leave more liquid than S_lr.", core::to_text(s_g[i])));
     if (!(chi[i] >= 0 && chi[i] <= 1)) refuse(fmt::format("chi is {}; a molar fraction lies between 0 and 1.", core::to_text(chi[i])));
     states.push_back(laws.state(s_g[i], P[i], chi[i]));
+    const double P_g = states.back().P_g.value;
+    if (!(P_g >= -negligible * std::max(std::abs(P[i]), std::abs(P_g - P[i]))))
+      refuse(fmt::format(
+          "P is {}, and the pressure of the gas, P + P_cp(s_g) = {}, is negative; write a larger P (in Pa, counted from vacuum).",
+          core::to_text(P[i]), core::to_text(P_g)));
   }
   return states;
 }
@@ -159,6 +167,13 @@ Teuchos::RCP<Vector> TwoPhaseOperator::initial() const {
     x(unknowns_per_cell * K + dissolved) = states[K].chi;
   }
   return X;
+}
+
+void TwoPhaseOperator::check(double t) const {
+  grid_.comm.together([&] {
+    for (const auto& [tag, part] : scene_.boundary)
+      if (part.kind == FlowBoundaryKind::state) states_of(part.state, laws_, part_of_boundary(grid_, tag), t, "boundary/" + tag);
+  });
 }
 
 FlowStep TwoPhaseOperator::step(double begin, double end, const Vector& before) const {

@@ -32,6 +32,8 @@ class TwoPhaseOperator {
 
   /// The state of the scene at time 0 at the centres of the cells.
   Teuchos::RCP<algebra::Vector> initial() const;
+  /// Throws InputError where the states on the boundary can not be at time t. Collective.
+  void check(double t) const;
   /// The step of ]begin, end] (units of the deck) from X^{n-1}: rates at its midpoint, states on the boundary at its end. Collective.
   FlowStep step(double begin, double end, const algebra::Vector& before) const;
 

@@ -9,4 +9,10 @@ namespace thixis::models {
 Teuchos::RCP<algebra::Vector> predicted(const TwoPhaseOperator& flow, const algebra::Vector& X, const algebra::Vector& X_before,
                                         double ratio);
 
+/// Where Newton's method begins the first step in a closed domain: X with the gas and the liquid of each cell in equilibrium, with the
+/// masses of X. Water is not compressed, so that the saturations stay,
+///
+///     P_g = (beta_l chi (1 - s_g) + beta_g P_g s_g) / (H (1 - s_g) + beta_g s_g),   P = P_g - P_cp(s_g),   chi = H P_g/beta_l.
+Teuchos::RCP<algebra::Vector> in_equilibrium(const TwoPhaseOperator& flow, const algebra::Vector& X);
+
 }  // namespace thixis::models

@@ -40,6 +40,7 @@ struct TwoPhaseVerifier::Cell {
 /// Masses that cross a face [kg/(m^2 s)], and the terms whose differences they are.
 struct TwoPhaseVerifier::Crossing {
   double mass[2] = {0, 0}, terms[2] = {0, 0};
+  bool given = false;  ///< by the deck, whatever the state
 };
 
 /// What the scene says of faces on the boundary: states behind them, masses that enter; by face, -1: nothing.
@@ -147,8 +148,7 @@ std::vector<TwoPhaseVerifier::Crossing> TwoPhaseVerifier::crossings(const std::v
       across[F] = crossing(A, cells[B], d, down);
     } else if (const int i = boundary.of_face[F]; i >= 0) {
       if (boundary.kind[i] == scene::FlowBoundaryKind::state) across[F] = crossing(A, cell(boundary.outside[i]), d, down);
-      else
-        for (int c : {water, hydrogen}) across[F].mass[c] = -boundary.entering[i][c];
+      else across[F] = {{-boundary.entering[i][water], -boundary.entering[i][hydrogen]}, {0, 0}, true};
     }
   }
   return across;
@@ -201,7 +201,7 @@ void TwoPhaseVerifier::judge_balances(double tau, const std::vector<State>& befo
   };
   std::vector<std::array<double, 2>> defects(grid_.owned_cells), nobodys(grid_.owned_cells);
   std::vector<double> most(4, 0);  // what is moved, and rounding, in the worst cell
-  std::vector<double> sums(6, 0);
+  std::vector<double> sums(8, 0);
   for (LocalIndex K = 0; K < grid_.owned_cells; ++K) {
     const double volume = on_host_.volume(K);
     const Cell was = cell(before[K]);
@@ -222,17 +222,21 @@ void TwoPhaseVerifier::judge_balances(double tau, const std::vector<State>& befo
       most[2 + c] = std::max(most[2 + c], nobodys[K][c]);
       sums[3 * c] += volume * (change + net);
       sums[3 * c + 1] += volume * tau * std::max(sources[c][K], 0.0);
+      sums[6 + c] += volume * tau * std::max(-sources[c][K], 0.0);
       sums[3 * c + 2] += volume * (is + (c == water ? filled[water] : 0));
     }
   }
   for (LocalIndex F = 0; F < grid_.faces; ++F)
     if (on_host_.face_cells(F, 1) < 0)
-      for (int c : {water, hydrogen}) sums[3 * c + 1] += tau * on_host_.face_area(F) * std::max(-across[F].mass[c], 0.0);
+      for (int c : {water, hydrogen}) {
+        sums[3 * c + 1] += tau * on_host_.face_area(F) * std::max(-across[F].mass[c], 0.0);
+        if (across[F].given) sums[6 + c] += tau * on_host_.face_area(F) * std::max(across[F].mass[c], 0.0);
+      }
   grid_.comm.max(most);
   grid_.comm.sum(sums);
   most[water] = std::max(most[water], most[hydrogen]);
   for (int c : {water, hydrogen}) {
-    found.accounts[c] = {sums[3 * c], sums[3 * c + 1], sums[3 * c + 2]};
+    found.accounts[c] = {sums[3 * c], sums[3 * c + 1], sums[6 + c], sums[3 * c + 2]};
     const double counts = std::min(1.0, std::max(most[c], resolved * most[2 + c]));
     for (LocalIndex K = 0; K < grid_.owned_cells; ++K) {
       const double beyond = std::abs(defects[K][c]) - rounding * nobodys[K][c];

@@ -92,7 +92,7 @@ const core::Schema<FlowParams>& FlowParams::schema() {
                       "Two-phase flow of water and hydrogen: rock, fluids, and what drives them; with a case, what is changed of it. SI "
                       "units, rates per time/unit. Defaults are the data of the gas injection benchmark of MoMaS.")
           .parameter("porosity", &P::porosity, core::strictly_between(0, 1), "phi, the share of the rock that fluids fill.")
-          .parameter("permeability", &P::permeability, core::above(0), "K [m²] of the rock.")
+          .parameter("permeability", &P::permeability, core::at_least(1e-30), "K [m²] of the rock; the tightest have 1e-24.")
           .parameter("viscosity of water", &P::viscosity_water, core::above(0), "mu_l [Pa s].")
           .parameter("viscosity of hydrogen", &P::viscosity_hydrogen, core::above(0), "mu_g [Pa s].")
           .parameter("density of water", &P::density_water, core::above(0), "rho_w [kg/m³].")

@@ -37,6 +37,13 @@ struct StepErrors {
   double negligible = 0;  ///< an error in the step below it counts for nothing, however small the other part is
 };
 
+/// Why X, which solves a step for the nonlinear solver, may not end it.
+struct Objection {
+  std::string why;         ///< a sentence that says what to try; empty: it may
+  bool too_loose = false;  ///< X is near a solution: the solver may come nearer with smaller tolerances
+  explicit operator bool() const { return !why.empty(); }
+};
+
 /// What a scene must bring to the next step beside X.
 struct EvolutionState {
   std::vector<output::CheckpointBlock> blocks;
@@ -79,9 +86,9 @@ class Evolution {
   virtual CellEstimates cell_estimates() const = 0;                     ///< of the last call of `estimate`
   virtual std::optional<StepErrors> step_errors() const { return {}; }  ///< likewise; nothing where they are not known apart
 
-  /// Why X, which solves the step for the nonlinear solver, may not end it, in a sentence that says what to try; empty: it may.
-  /// `tolerance`: of the verifier; `conditions`: whether balances and contact conditions count, which the rule adaptive leaves open.
-  virtual std::string objection(const algebra::Vector&, double /*tolerance*/, bool /*conditions*/) { return {}; }
+  /// Whether X, which solves the step for the nonlinear solver, may end it. `tolerance`: of the verifier; `conditions`: whether balances
+  /// and contact conditions count, which the rule adaptive leaves open.
+  virtual Objection objection(const algebra::Vector&, double /*tolerance*/, bool /*conditions*/) { return {}; }
   /// What the log should say of the step that was estimated, in a sentence; empty: nothing.
   virtual std::string remark() const { return {}; }
 
@@ -96,6 +103,8 @@ class Evolution {
   /// Of the step begun alone, if it ended with X: what `estimate` bounds.
   virtual std::optional<double> step_energy_error(const algebra::Vector&) const { return {}; }
   virtual std::optional<complementarity::Estimate> estimate_so_far() const { return {}; }  ///< where every step was estimated
+  /// Whether no step accepted so far, also before a checkpoint, went without its estimate.
+  virtual bool every_step_estimated() const { return true; }
   /// What keeps it from being guaranteed, a clause each.
   virtual std::vector<std::string> doubts() const { return {}; }
   /// What estimate_so_far() is, in words before a number.
