@@ -10,8 +10,6 @@
 namespace thixis::models {
 namespace {
 
-constexpr double smallest_digit = 1e-6;  // that is judged
-
 using algebra::Vector;
 using method::Coefficients;
 
@@ -96,7 +94,7 @@ PointForces point_forces(const MembraneSolution& solution, std::vector<double> l
   }
   for (int alpha = 0; alpha < membranes.count; ++alpha)
     forces.on_membrane.push_back(std::max(largest[alpha], forces.through_contact) +
-                                 measure.round_off(alpha, solution.x.u) / smallest_digit);
+                                 measure.round_off(alpha, solution.x.u) / MembraneMeasure::smallest_digit);
   forces.through_contact = *std::min_element(forces.on_membrane.begin(), forces.on_membrane.end());
   const auto or_one = [](double& force) { force = force > 0 ? force : 1; };  // nothing acts: all is zero, exactly
   or_one(forces.through_contact);
@@ -146,7 +144,7 @@ complementarity::KktData kkt_data(const MembraneSolution& solution) {
   softness.reciprocal(measure.stiffness());
   data.gap_scale = std::max(measure.displacement(x.u), softness.normInf() * forces.through_contact);
   for (int alpha = 0; alpha < scene.count; ++alpha)
-    data.gap_scale += std::numeric_limits<double>::epsilon() / smallest_digit * x.u.getVector(alpha)->normInf();
+    data.gap_scale += measure.round_off_of_height(alpha, x.u) / MembraneMeasure::smallest_digit;
   if (!(data.gap_scale > 0)) data.gap_scale = 1;
   data.of_residual = softness.normInf() / (measure.contact_weight() * data.gap_scale);
   for (int alpha = 0; alpha < scene.count; ++alpha) {

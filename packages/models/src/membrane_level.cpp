@@ -97,12 +97,20 @@ void MembraneLevel::measure_from_rest() {
   algebra::MultiVector u(space_->map(), scene_.count);
   for (int alpha = 0; alpha < scene_.count; ++alpha) {
     rest_[alpha] = heights.rest(alpha);
+    size_[alpha] = std::max(start_[alpha], heights.size(alpha));
     space_->interpolate(*scene::constant(rest_[alpha]), 0, *u.getVectorNonConst(alpha));
   }
-  problem_->measure_from({&u, rest_, scene_.count == 1 ? reach(std::min(heights.low[0], rest_[0])) : 0});
+  problem_->measure_from({&u, rest_, size_, scene_.count == 1 ? reach(std::min(heights.low[0], rest_[0])) : 0});
 }
 
-void MembraneLevel::measure_from(const algebra::MultiVector& u) { problem_->measure_from({&u, rest_, 0}, body_); }
+void MembraneLevel::measure_from(const algebra::MultiVector& u) { problem_->measure_from({&u, rest_, size_, 0}, body_); }
+
+/// A linear solver takes some 14 digits off the residual there, as a norm: at one point what rounding leaves of |u| = (sum_l u_l²)^½ may
+/// remain.
+void MembraneLevel::start_from(const algebra::MultiVector& u) {
+  for (int alpha = 0; alpha < scene_.count; ++alpha) start_[alpha] = u.getVector(alpha)->norm2();
+  measure_from_rest();
+}
 
 /// How low forces could bring the membrane, roughly: the sum of all of them over its tension, a length, below where it is held.
 double MembraneLevel::reach(double low) const {

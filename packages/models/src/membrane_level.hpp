@@ -49,6 +49,8 @@ class MembraneLevel {
 
   /// Measures residuals by what acts on the membranes from u°, beside the forces on them. Collective.
   void measure_from(const algebra::MultiVector& u);
+  /// Newton begins at u, unknowns: its height counts among those whose rounding is no force. Collective.
+  void start_from(const algebra::MultiVector& u);
 
   /// X as named values whose ids do not depend on the number of ranks; Dirichlet values are left out. `suffix`: behind the names.
   std::vector<output::CheckpointBlock> save(const algebra::Vector& X, const std::string& suffix = "") const;
@@ -82,7 +84,8 @@ class MembraneLevel {
   method::MethodParams method_;
   std::unique_ptr<method::Space> space_;
   Boundary boundary_;
-  std::array<double, 2> rest_ = {0, 0};  ///< heights at which the membranes rest at the beginning
+  std::array<double, 2> rest_ = {0, 0};                   ///< heights at which the membranes rest at the beginning
+  std::array<double, 2> size_ = {0, 0}, start_ = {0, 0};  ///< the largest heights of each membrane: in the data, at the start
   double time_ = 0;
   bool steady_boundary_ = true, steady_loads_ = true, steady_interface_ = true;
   method::Coefficients nothing_, lift_[2], obstacle_;

@@ -19,6 +19,7 @@ auto read(const Vector& v) { return v.getLocalViewDevice(Tpetra::Access::ReadOnl
 }  // namespace
 
 MembraneMeasure::MembraneMeasure(const MembraneOperator& membranes) : count_(membranes.count), stiffness_(membranes.points()) {
+  if (count_ == 2) share_ = membranes.theta;
   const auto kappa = stiffness_.getLocalViewDevice(Tpetra::Access::ReadWrite);
   for (int alpha = 0; alpha < count_; ++alpha) {
     diagonal_[alpha] = Teuchos::rcp(new Vector(membranes.map()));
@@ -34,6 +35,7 @@ MembraneMeasure::MembraneMeasure(const MembraneOperator& membranes) : count_(mem
 
 void MembraneMeasure::set(const MembraneOperator& membranes, const Rest& rest, const Teuchos::RCP<Vector>* body) {
   height_ = rest.height;
+  size_ = rest.size;
   std::array<double, 2> force = {0, 0}, stiffness = {0, 0};
   Vector acting(membranes.map()), on_gap(membranes.map());
   for (int alpha = 0; alpha < count_; ++alpha) stiffness[alpha] = diagonal_[alpha]->norm1();
@@ -49,7 +51,8 @@ void MembraneMeasure::set(const MembraneOperator& membranes, const Rest& rest, c
   const double through_contact = on_gap.norm2();
   reference_ = 0;
   for (int alpha = 0; alpha < count_; ++alpha) {
-    force[alpha] = std::max(force[alpha], through_contact);
+    const double round_off = rounding * diagonal_[alpha]->norm2() * carried(alpha, size_);
+    force[alpha] = std::max({force[alpha], through_contact, round_off / smallest_digit});
     reference_ = std::max(reference_, force[alpha]);
   }
   if (count_ == 1) reference_ = std::max(reference_, contact_force(membranes, rest.reach));
@@ -73,16 +76,24 @@ double MembraneMeasure::contact_force(const MembraneOperator& membranes, double 
   return std::sqrt(algebra::comm_of(*membranes.map()).sum(sum));
 }
 
+/// u_1 = w + theta_2 z and u_2 = w - theta_1 z, w = theta_1 u_1 + theta_2 u_2, z = u_1 - u_2, are as steady as w and z: a membrane has the
+/// rounding of its own height, and of the other one's as far as it yields to it.
+double MembraneMeasure::carried(int alpha, const std::array<double, 2>& heights) const {
+  return count_ == 1 ? heights[0] : heights[alpha] + share_[1 - alpha] * heights[1 - alpha];
+}
+
 double MembraneMeasure::round_off(const MultiVector& u) const {
   double all = 0;
+  const auto x = u.getLocalViewDevice(Tpetra::Access::ReadOnly);
   for (int alpha = 0; alpha < count_; ++alpha) {
     const auto S = read(*diagonal_[alpha]);
-    const auto x = u.getLocalViewDevice(Tpetra::Access::ReadOnly);
+    const int beta = count_ == 1 ? 0 : 1 - alpha;
+    const double share = count_ == 1 ? 0 : share_[beta];
     double sum = 0;
     Kokkos::parallel_reduce(
         "thixis::models::round_off", Range(0, x.extent_int(0)),
         KOKKOS_LAMBDA(int l, double& squares) {
-          const double force = S(l, 0) * x(l, alpha);
+          const double force = S(l, 0) * (std::abs(x(l, alpha)) + share * std::abs(x(l, beta)));
           squares += force * force;
         },
         sum);
@@ -92,9 +103,17 @@ double MembraneMeasure::round_off(const MultiVector& u) const {
 }
 
 double MembraneMeasure::round_off(int alpha, const MultiVector& u) const {
-  Vector force(u.getMap());
-  force.elementWiseMultiply(1, *diagonal_[alpha], *u.getVector(alpha), 0);
-  return rounding * force.normInf();
+  return rounding * diagonal_[alpha]->normInf() * carried(alpha, heights(u));
+}
+
+double MembraneMeasure::round_off_of_height(int alpha, const MultiVector& u) const {
+  return std::numeric_limits<double>::epsilon() * carried(alpha, heights(u));
+}
+
+std::array<double, 2> MembraneMeasure::heights(const MultiVector& u) const {
+  std::array<double, 2> largest = size_;
+  for (int alpha = 0; alpha < count_; ++alpha) largest[alpha] = std::max(largest[alpha], u.getVector(alpha)->normInf());
+  return largest;
 }
 
 double MembraneMeasure::displacement(int alpha, const MultiVector& u) const {

@@ -7,6 +7,7 @@ namespace thixis::models {
 struct Rest {
   const algebra::MultiVector* u = nullptr;  ///< u°_alpha, unknowns; null: zero
   std::array<double, 2> height = {0, 0};    ///< of each membrane
+  std::array<double, 2> size = {0, 0};      ///< of each membrane: the largest height at which it is held, that of the start
   double reach = 0;                         ///< over an obstacle: the membrane comes no lower, whatever the obstacle does
 };
 
@@ -34,17 +35,24 @@ class MembraneMeasure {
 
   /// What rounding of S u leaves in |R|. Collective.
   double round_off(const algebra::MultiVector& u) const;
-  /// What it leaves in a row of one membrane, at worst. Collective.
+  /// What it leaves in a row of one membrane, at worst, and what it leaves of the heights in the data. Collective.
   double round_off(int alpha, const algebra::MultiVector& u) const;
   /// max_l |u_alpha,l - height_alpha| at the contact points: how far a membrane is moved. Collective.
   double displacement(int alpha, const algebra::MultiVector& u) const;
   double displacement(const algebra::MultiVector& u) const;  ///< … of all
+  /// What rounding leaves in the heights of a membrane, at worst: of u, and of the heights in the data. Collective.
+  double round_off_of_height(int alpha, const algebra::MultiVector& u) const;
+
+  static constexpr double smallest_digit = 1e-6;  ///< that is judged: what acts is at least round-off by this
 
  private:
   double contact_force(const MembraneOperator& membranes, double reach) const;
+  std::array<double, 2> heights(const algebra::MultiVector& u) const;
+  double carried(int alpha, const std::array<double, 2>& heights) const;
 
   int count_;
-  std::array<double, 2> weight_ = {1, 1}, height_ = {0, 0};
+  std::array<double, 2> weight_ = {1, 1}, height_ = {0, 0}, size_ = {0, 0};
+  std::array<double, 2> share_ = {1, 0};  ///< theta_alpha of each membrane; m = 1: (1, 0)
   double reference_ = 0;
   Teuchos::RCP<algebra::Vector> diagonal_[2];
   algebra::Vector stiffness_;

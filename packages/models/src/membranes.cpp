@@ -42,6 +42,7 @@ class MembraneDiscretization final : public Discretization {
     for (int alpha = 0; alpha < scene_.count; ++alpha)
       if (initial_[alpha]) space().interpolate(*initial_[alpha], 0, *x.u.getVectorNonConst(alpha));
     if (initial_[2]) space().interpolate_multiplier(*initial_[2], 0, x.lambda);
+    on_mesh_->start_from(x.u);
     return on_mesh_->joined(x);
   }
 
