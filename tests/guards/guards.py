@@ -201,6 +201,15 @@ def tensions():
     thixis("run", deck, "--output", "out", *with_settings(method__name="dg", method__variant="nipg"), expect=(0, 3))
 
 
+def tilts():
+    """A tilt that all heights have in common takes digits from the gap: a run says how many, and ends with exit code 3 where none is left."""
+    deck = DECKS / "extremes/membranes/tilted.xml"
+    for ranks in (1, 2):
+        thixis("run", deck, "--output", "out", ranks=ranks, says="; the rounding of heights of up to 2.0e+09 hides forces below ")
+        thixis("run", deck, "--output", "out", *with_settings(scene__data__g1="1e13*(x+y)+0.1", scene__data__g2="1e13*(x+y)"), ranks=ranks,
+               expect=3, says="contact cannot be told; subtract from all heights what they have in common")
+
+
 def sealed(path):
     """Writes the seal of a checkpoint anew, as one who changes it on purpose would."""
     content = path.read_bytes()[512:]
@@ -338,4 +347,4 @@ shutil.rmtree(scratch, ignore_errors=True)
 scratch.mkdir(parents=True)
 signal.alarm(600)
 {"special_files": special_files, "links": links, "two_runs": two_runs, "sizes": sizes, "extremes": extremes, "words": words,
- "tensions": tensions, "forged": forged, "memory": memory, "drawn": drawn}[scenario]()
+ "tensions": tensions, "tilts": tilts, "forged": forged, "memory": memory, "drawn": drawn}[scenario]()

@@ -28,6 +28,7 @@ void verify(Outcome& outcome, const RunParams& params, const models::Model& mode
   outcome.kkt_tolerance = params.stopping.kkt_tolerance.value_or(kkt_data.allowed(residual));
   if (!params.estimated()) outcome.energy_error = discretization.energy_error(*outcome.X);
   outcome.energy_norm = discretization.energy_norm(*outcome.X);
+  outcome.rounding = discretization.rounding(*outcome.X);
   outcome.contact = discretization.contact(*outcome.X);
   if (!params.expect.at.empty())
     outcome.at_points = values_by_name(params.expect, model.point_fields(), discretization.values_at(wanted(params).expected, *outcome.X));

@@ -17,6 +17,25 @@ std::string effort(const Position& at) {
                      at.linear_iterations, at.linear_iterations == 1 ? "" : "s");
 }
 
+/// Relative to what acts: from here on rounding is worth a word, and from there on contact is not known.
+constexpr double noticeable = 1e-6, too_much = 1e-2;
+
+constexpr const char* spread_less =
+    "subtract from all heights what they have in common, such as a tilt, and put what never touches less far away";
+
+std::string hidden(const models::Rounding& rounding) {
+  return fmt::format(
+      "not converged: the rounding of heights of up to {:.1e} is {:.1e} of what drives the gap, so that contact cannot be told; {}.",
+      rounding.height, rounding.of_contact, spread_less);
+}
+
+std::string rounded(const models::Rounding& rounding) {
+  const double share = std::max(rounding.of_contact, rounding.of_forces);
+  if (share <= noticeable) return "";
+  return fmt::format("; the rounding of heights of up to {:.1e} hides forces below {:.1e} of those that act: {}", rounding.height, share,
+                     spread_less);
+}
+
 std::string solved(const RunParams& params, const Outcome& outcome) {
   std::string sentence = "solved in " + effort(outcome.at);
   if (!outcome.finest.settled) sentence += "; the contact set did not settle; ended by its residual";
@@ -25,7 +44,7 @@ std::string solved(const RunParams& params, const Outcome& outcome) {
   if (params.stopping.target) sentence += fmt::format(", as asked for by stopping/target = {:g}", *params.stopping.target);
   else if (!outcome.refinement_ended.empty()) sentence += "; refinement ended by " + outcome.refinement_ended;
   const char* unjudged = outcome.kkt->holds(outcome.kkt_tolerance) ? "" : ", which the rule adaptive does not judge";
-  return sentence + fmt::format("; contact conditions hold to {:.1e}{}.", outcome.kkt->worst(), unjudged);
+  return sentence + fmt::format("; contact conditions hold to {:.1e}{}{}.", outcome.kkt->worst(), unjudged, rounded(outcome.rounding));
 }
 
 std::string target_missed(const RunParams& params, const Outcome& outcome) {
@@ -73,6 +92,7 @@ Verdict judge(const RunParams& params, const Outcome& outcome) {
   if (!outcome.solved) return {ExitCode::not_converged, not_converged(outcome.finest)};
   if (params.stopping.rule != complementarity::StoppingRule::adaptive && !outcome.kkt->holds(outcome.kkt_tolerance))
     return {ExitCode::not_converged, not_in_contact(outcome.finest, *outcome.kkt, outcome.kkt_tolerance)};
+  if (outcome.rounding.of_contact > too_much) return {ExitCode::not_converged, hidden(outcome.rounding)};
   if (params.stopping.target && !outcome.refinement_ended.empty())
     return {ExitCode::target_missed,
             target_missed(params, outcome) + (missing.empty() ? "" : "; besides, not as expected: " + clauses) + "."};

@@ -100,10 +100,11 @@ void MembraneLevel::measure_from_rest() {
     size_[alpha] = std::max(start_[alpha], heights.size(alpha));
     space_->interpolate(*scene::constant(rest_[alpha]), 0, *u.getVectorNonConst(alpha));
   }
-  problem_->measure_from({&u, rest_, size_, scene_.count == 1 ? reach(std::min(heights.low[0], rest_[0])) : 0});
+  problem_->measure_from({&u, rest_, size_, scene_.count == 1 ? reach(std::min(heights.low[0], rest_[0])) : 0,
+                          [this](int alpha) { return force_alone(alpha).norm2(); }});
 }
 
-void MembraneLevel::measure_from(const algebra::MultiVector& u) { problem_->measure_from({&u, rest_, size_, 0}, body_); }
+void MembraneLevel::measure_from(const algebra::MultiVector& u) { problem_->measure_from({&u, rest_, size_, 0, {}}, body_); }
 
 /// A linear solver takes some 14 digits off the residual there, as a norm: at one point what rounding leaves of |u| = (sum_l u_l²)^½ may
 /// remain.
@@ -112,16 +113,37 @@ void MembraneLevel::start_from(const algebra::MultiVector& u) {
   measure_from_rest();
 }
 
-/// How low forces could bring the membrane, roughly: the sum of all of them over its tension, a length, below where it is held.
-double MembraneLevel::reach(double low) const {
-  auto unheld = boundary_.values[0];
+/// (f, psi_l) and tractions, no boundary values among them.
+Vector MembraneLevel::force_alone(int alpha) const {
+  auto unheld = boundary_.values[alpha];
   for (auto& value : unheld.dirichlet)
     if (value) value = scene::constant(0);
   Vector force(space_->map());
-  space_->load(*scene_.tension[0], *scene_.force[0], unheld, time_, force);
+  space_->load(*scene_.tension[alpha], *scene_.force[alpha], unheld, time_, force);
+  return force;
+}
+
+/// How low forces could bring the membrane, roughly: the sum of all of them over its tension, a length, below where it is held.
+double MembraneLevel::reach(double low) const {
   Vector softness(space_->map());
   softness.reciprocal(problem_->measure().diagonal(0));
-  return low - 4 * force.norm1() * softness.normInf();
+  return low - 4 * force_alone(0).norm1() * softness.normInf();
+}
+
+Rounding MembraneLevel::rounding(const Vector& X) const {
+  const Fields x = fields(X);
+  const MembraneMeasure& measure = problem_->measure();
+  const auto lost = measure.rounded_forces(x.u), height = measure.heights(x.u);
+  std::array<double, 2> force = {0, 0};
+  Rounding rounding;
+  for (int alpha = 0; alpha < scene_.count; ++alpha) {
+    force[alpha] = force_alone(alpha).norm2();
+    rounding.height = std::max(rounding.height, height[alpha]);
+    if (force[alpha] > 0) rounding.of_forces = std::max(rounding.of_forces, lost[alpha] / force[alpha]);
+  }
+  const double acting = std::max(measure.on_gap(), measure.on_gap(force));
+  if (acting > 0) rounding.of_contact = measure.on_gap(lost) / acting;
+  return rounding;
 }
 
 void MembraneLevel::set_lifts() {

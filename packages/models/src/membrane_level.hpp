@@ -62,6 +62,7 @@ class MembraneLevel {
   static std::vector<std::string> point_fields(const scene::MembraneScene& scene);
   std::vector<double> values_at(const std::vector<Probe>& probes, const algebra::Vector& X) const;
   Contact contact(const algebra::Vector& X) const;
+  Rounding rounding(const algebra::Vector& X) const;
   double largest_gap(const algebra::Vector& X) const;  ///< at the contact points
 
   /// The scene as its bound sees it.
@@ -70,6 +71,7 @@ class MembraneLevel {
  private:
   void require_stiffness() const;
   void measure_from_rest();
+  algebra::Vector force_alone(int alpha) const;
   double reach(double low) const;
   void set_lifts();
   void set_loads();

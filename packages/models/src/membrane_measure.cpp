@@ -14,7 +14,20 @@ using Range = Kokkos::RangePolicy<Vector::execution_space>;
 /// Rounding errors of a sum S u of some ten terms, in units of S_ll |u_l|.
 constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
 
+/// No force is a scale that is so many times what drives the gap: the tolerance of 1e-10 leaves 1e-7 of that.
+constexpr double farthest = 1e3;
+
 auto read(const Vector& v) { return v.getLocalViewDevice(Tpetra::Access::ReadOnly); }
+
+/// |(S psi - F)^+| at the contact points: no obstacle exerts more (Lewy and Stampacchia).
+double pushed(const Vector& on_closed_gap, const MembraneOperator& membranes) {
+  const auto force = read(on_closed_gap);
+  double sum = 0;
+  Kokkos::parallel_reduce(
+      "thixis::models::contact_force", Range(0, algebra::local_size(*membranes.points())),
+      KOKKOS_LAMBDA(int l, double& squares) { squares += force(l, 0) < 0 ? force(l, 0) * force(l, 0) : 0; }, sum);
+  return std::sqrt(algebra::comm_of(*membranes.map()).sum(sum));
+}
 
 }  // namespace
 
@@ -47,6 +60,9 @@ void MembraneMeasure::set(const MembraneOperator& membranes, const Rest& rest, c
     const double share = count_ == 1 ? 1 : stiffness[1 - alpha] / (stiffness[0] + stiffness[1]);
     on_gap.update(alpha == 0 ? share : -share, acting, 1);
   }
+  const Vector on_closed = force_on_closed_gap(membranes, rest.reach);
+  on_gap_ = on_closed.norm2();
+  if (rest.force) bound_by_gap(rest, force);
   // what drives the gap reaches both membranes through contact
   const double through_contact = on_gap.norm2();
   reference_ = 0;
@@ -55,25 +71,34 @@ void MembraneMeasure::set(const MembraneOperator& membranes, const Rest& rest, c
     force[alpha] = std::max({force[alpha], through_contact, round_off / smallest_digit});
     reference_ = std::max(reference_, force[alpha]);
   }
-  if (count_ == 1) reference_ = std::max(reference_, contact_force(membranes, rest.reach));
+  if (count_ == 1) reference_ = std::max(reference_, pushed(on_closed, membranes));
   for (int alpha = 0; alpha < count_; ++alpha) weight_[alpha] = count_ == 2 && force[alpha] > 0 ? reference_ / force[alpha] : 1;
 }
 
-/// |(S psi - F)^+| at the contact points: no obstacle exerts more (Lewy and Stampacchia), where a psi out of reach is cut.
-double MembraneMeasure::contact_force(const MembraneOperator& membranes, double reach) const {
-  Vector psi(*membranes.obstacle, Teuchos::Copy), force(*membranes.load[0], Teuchos::Copy);
+/// A tilt that all heights have in common acts on each membrane and not on the gap: a residual of R_1 leaves theta_2 R_1 there.
+void MembraneMeasure::bound_by_gap(const Rest& rest, std::array<double, 2>& force) const {
+  if (on_gap(force) <= farthest * on_gap_) return;
+  std::array<double, 2> alone = {0, 0};
+  for (int alpha = 0; alpha < count_; ++alpha) alone[alpha] = rest.force(alpha);
+  const double most = farthest * std::max(on_gap_, on_gap(alone));
+  for (int alpha = 0; alpha < count_; ++alpha) force[alpha] = std::min(force[alpha], most / yields(alpha));
+}
+
+/// theta_2 F_1 - theta_1 F_2, or F - S psi, where a psi out of reach is cut.
+Vector MembraneMeasure::force_on_closed_gap(const MembraneOperator& membranes, double reach) const {
+  Vector force(*membranes.load[0], Teuchos::Copy);
+  if (count_ == 2) {
+    force.update(-yields(1), *membranes.load[1], yields(0));
+    return force;
+  }
+  Vector psi(*membranes.obstacle, Teuchos::Copy);
   const auto height = psi.getLocalViewDevice(Tpetra::Access::ReadWrite);
   Kokkos::parallel_for(
       "thixis::models::in_reach", Range(0, height.extent_int(0)), KOKKOS_LAMBDA(int l) {
         if (height(l, 0) < reach) height(l, 0) = reach;
       });
-  membranes.matrix[0]->apply(psi, force, Teuchos::NO_TRANS, membranes.factor[0], -1);
-  const auto pushed = read(force);
-  double sum = 0;
-  Kokkos::parallel_reduce(
-      "thixis::models::contact_force", Range(0, algebra::local_size(*membranes.points())),
-      KOKKOS_LAMBDA(int l, double& squares) { squares += pushed(l, 0) > 0 ? pushed(l, 0) * pushed(l, 0) : 0; }, sum);
-  return std::sqrt(algebra::comm_of(*membranes.map()).sum(sum));
+  membranes.matrix[0]->apply(psi, force, Teuchos::NO_TRANS, -membranes.factor[0], 1);
+  return force;
 }
 
 /// u_1 = w + theta_2 z and u_2 = w - theta_1 z, w = theta_1 u_1 + theta_2 u_2, z = u_1 - u_2, are as steady as w and z: a membrane has the
@@ -82,8 +107,12 @@ double MembraneMeasure::carried(int alpha, const std::array<double, 2>& heights)
   return count_ == 1 ? heights[0] : heights[alpha] + share_[1 - alpha] * heights[1 - alpha];
 }
 
-double MembraneMeasure::round_off(const MultiVector& u) const {
-  double all = 0;
+double MembraneMeasure::on_gap(const std::array<double, 2>& forces) const {
+  return count_ == 1 ? forces[0] : yields(0) * forces[0] + yields(1) * forces[1];
+}
+
+std::array<double, 2> MembraneMeasure::rounded_forces(const MultiVector& u) const {
+  std::array<double, 2> forces = {0, 0};
   const auto x = u.getLocalViewDevice(Tpetra::Access::ReadOnly);
   for (int alpha = 0; alpha < count_; ++alpha) {
     const auto S = read(*diagonal_[alpha]);
@@ -97,9 +126,14 @@ double MembraneMeasure::round_off(const MultiVector& u) const {
           squares += force * force;
         },
         sum);
-    all += weight_[alpha] * weight_[alpha] * sum;
+    forces[alpha] = rounding * std::sqrt(algebra::comm_of(*u.getMap()).sum(sum));
   }
-  return rounding * std::sqrt(algebra::comm_of(*u.getMap()).sum(all));
+  return forces;
+}
+
+double MembraneMeasure::round_off(const MultiVector& u) const {
+  const std::array<double, 2> forces = rounded_forces(u);
+  return std::hypot(weight_[0] * forces[0], weight_[1] * forces[1]);
 }
 
 double MembraneMeasure::round_off(int alpha, const MultiVector& u) const {

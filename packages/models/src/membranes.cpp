@@ -123,6 +123,7 @@ class MembraneDiscretization final : public Discretization {
     return models::kkt_data(solution);
   }
 
+  Rounding rounding(const Vector& X) const override { return on_mesh_->rounding(X); }
   Contact contact(const Vector& X) const override { return on_mesh_->contact(X); }
   std::vector<double> values_at(const std::vector<Probe>& probes, const Vector& X) const override { return on_mesh_->values_at(probes, X); }
   output::Grid grid() const override { return space().display(); }

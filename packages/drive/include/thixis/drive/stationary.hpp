@@ -53,6 +53,7 @@ struct Outcome {
   double kkt_tolerance = 0;  ///< what the verifier lets pass
   std::optional<double> energy_error;
   double energy_norm = 0;
+  models::Rounding rounding;
   std::optional<models::Contact> contact;
   std::map<std::string, double> at_points;            ///< what `expect/at` asks for, by its names
   bool nested = false;                                ///< the level began (also before a restart) from the solution on the one before

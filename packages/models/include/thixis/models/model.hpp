@@ -40,6 +40,13 @@ struct Contact {
   double area = 0, force = 0;
 };
 
+/// What the rounding of heights may hide, at worst: forces of this size relative to those that act.
+struct Rounding {
+  double of_contact = 0;  ///< … to what drives the gap
+  double of_forces = 0;   ///< … to the forces on a membrane, boundary data not among them; 0 where there are none
+  double height = 0;      ///< the largest one, counted from where the membranes are held
+};
+
 /// A point that a run looks at.
 struct Probe {
   std::string path;  ///< the entry of the deck that names it
@@ -88,6 +95,7 @@ class Discretization {
   virtual std::optional<PublishedEstimate> published_estimate(const algebra::Vector& X, std::optional<double> friedrichs) = 0;
   /// Everything the verifier needs, recomputed from X cell by cell.
   virtual complementarity::KktData kkt_data(const algebra::Vector& X) const = 0;
+  virtual Rounding rounding(const algebra::Vector& X) const = 0;
   virtual Contact contact(const algebra::Vector& X) const = 0;
   /// The fields of Model::point_fields at points, [probe][field], on all ranks. Collective.
   virtual std::vector<double> values_at(const std::vector<Probe>& probes, const algebra::Vector& X) const = 0;
