@@ -2,6 +2,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "lengths.hpp"
 #include "thixis/mesh/build.hpp"
 
 namespace thixis::mesh {
@@ -10,12 +11,21 @@ namespace {
 /// Cells of a coarsest mesh that a rank can be asked to hold whole.
 constexpr double whole_limit = 2e7;
 
+/// An extent along one coordinate, cut into so many pieces.
+std::optional<Mistake> extent_mistake(double lower, double upper, double pieces) {
+  const std::string mistake = lengths_mistake(std::max(std::abs(lower), std::abs(upper)), (upper - lower) / pieces);
+  if (mistake.empty()) return std::nullopt;
+  return Mistake{"upper", mistake};
+}
+
 std::optional<Mistake> corners_mistake(const MeshParams& params) {
   if (params.lower.size() != 2) return Mistake{"lower", "write two coordinates, such as {0, 0}."};
   if (params.upper.size() != 2) return Mistake{"upper", "write two coordinates, such as {1, 1}."};
   const double width = params.upper[0] - params.lower[0], height = params.upper[1] - params.lower[1];
   if (!(width > 0 && height > 0 && std::isfinite(width) && std::isfinite(height)))
     return Mistake{"upper", "write finite coordinates, each larger than that of 'lower'."};
+  for (int d = 0; d < 2; ++d)
+    if (auto found = extent_mistake(params.lower[d], params.upper[d], params.cells_per_side * std::exp2(params.refinements))) return found;
   return std::nullopt;
 }
 
@@ -49,7 +59,7 @@ std::optional<Mistake> interval_mistake(const MeshParams& params) {
   if (!is_end(params.upper, defaults.upper)) return Mistake{"upper", "an interval ends at one coordinate; write it, such as {1}."};
   if (!(params.upper[0] > params.lower[0] && std::isfinite(params.upper[0] - params.lower[0])))
     return Mistake{"upper", "write a finite coordinate larger than that of 'lower'."};
-  return std::nullopt;
+  return extent_mistake(params.lower[0], params.upper[0], params.cells[0]);
 }
 
 std::optional<Mistake> tensor_mistake(const MeshParams& params) {

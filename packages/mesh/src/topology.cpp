@@ -6,6 +6,7 @@
 #include <numeric>
 #include <sstream>
 
+#include "lengths.hpp"
 #include "thixis/core/error.hpp"
 #include "thixis/core/text.hpp"
 #include "thixis/mesh/geometry.hpp"
@@ -61,11 +62,14 @@ LocalIndex count_faces(const std::vector<Side>& sides, const Triangulation& tria
 
 void require_positive_areas(const Triangulation& triangulation, const HostMesh& host) {
   for (std::size_t K = 0; K < triangulation.cells.size(); ++K) {
-    double longest = 0;
+    double longest = 0, farthest = 0;
     for (int i = 0; i < 3; ++i) {
       const auto &a = triangulation.points[triangulation.cells[K][i]], &b = triangulation.points[triangulation.cells[K][(i + 1) % 3]];
       longest = std::max(longest, std::hypot(b[0] - a[0], b[1] - a[1]));
+      farthest = std::max({farthest, std::abs(a[0]), std::abs(a[1])});
     }
+    if (const std::string mistake = lengths_mistake(farthest, longest); longest > 0 && !mistake.empty())
+      throw core::InputError(triangulation.name + ": " + mistake);
     if (!(cell_area(host.parameter, host.cell_vertices, static_cast<LocalIndex>(K)) > 1e-14 * longest * longest))
       throw core::InputError(triangulation.name + ": the triangle at " + at(triangulation, triangulation.cells[K][0]) +
                              " has no area; give a mesh without degenerate triangles.");

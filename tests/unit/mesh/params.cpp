@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "lengths.hpp"
 #include "meshes.hpp"
 #include "thixis/core/deck.hpp"
 #include "thixis/core/error.hpp"
@@ -142,6 +143,16 @@ TEST(deck, with_mistakes_is_refused_before_any_mesh_is_built) {
   EXPECT_EQ(deck_refusal("<Parameter name=\"generator\" type=\"string\" value=\"interval\"/>\n"),
             "deck.xml:1: cells: write the number of intervals, such as {100}.");
   EXPECT_NE(deck_refusal("<Parameter name=\"generator\" type=\"string\" value=\"triangle\"/>\n"), "");
+}
+
+TEST(lengths, that_arithmetic_can_not_follow_are_refused) {
+  EXPECT_EQ(lengths_mistake(1, 0.1), "");
+  EXPECT_EQ(lengths_mistake(1e14, 0.125), "");
+  EXPECT_EQ(lengths_mistake(1e60, 1e59), "");
+  EXPECT_EQ(lengths_mistake(1e-59, 1e-60), "");
+  EXPECT_NE(lengths_mistake(1e15, 0.125).find("no digits"), std::string::npos);
+  EXPECT_NE(lengths_mistake(1e61, 1e60).find("units"), std::string::npos);
+  EXPECT_NE(lengths_mistake(1e-59, 1e-61).find("units"), std::string::npos);
 }
 
 }  // namespace thixis::mesh
