@@ -64,7 +64,7 @@ void MembraneMeasure::set(const MembraneOperator& membranes, const Rest& rest, c
   on_gap_ = on_closed.norm2();
   if (rest.force) bound_by_gap(rest, force);
   // what drives the gap reaches both membranes through contact
-  const double through_contact = on_gap.norm2();
+  const double through_contact = count_ == 1 ? force[0] : on_gap.norm2();
   reference_ = 0;
   for (int alpha = 0; alpha < count_; ++alpha) {
     const double round_off = rounding * diagonal_[alpha]->norm2() * carried(alpha, size_);
