@@ -56,6 +56,7 @@ class Estimated final : public models::Discretization {
     return published;
   }
   complementarity::KktData kkt_data(const algebra::Vector& X) const override { return inner_->kkt_data(X); }
+  models::Rounding rounding(const algebra::Vector& X) const override { return inner_->rounding(X); }
   models::Contact contact(const algebra::Vector& X) const override { return inner_->contact(X); }
   std::vector<double> values_at(const std::vector<models::Probe>& probes, const algebra::Vector& X) const override {
     return inner_->values_at(probes, X);
