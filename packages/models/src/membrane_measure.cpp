@@ -60,7 +60,7 @@ void MembraneMeasure::set(const MembraneOperator& membranes, const Rest& rest, c
     const double share = count_ == 1 ? 1 : stiffness[1 - alpha] / (stiffness[0] + stiffness[1]);
     on_gap.update(alpha == 0 ? share : -share, acting, 1);
   }
-  const Vector on_closed = force_on_closed_gap(membranes, rest.reach);
+  const Vector on_closed = force_on_closed_gap(membranes, rest.obstacle);
   on_gap_ = on_closed.norm2();
   if (rest.force) bound_by_gap(rest, force);
   // what drives the gap reaches both membranes through contact
@@ -84,19 +84,14 @@ void MembraneMeasure::bound_by_gap(const Rest& rest, std::array<double, 2>& forc
   for (int alpha = 0; alpha < count_; ++alpha) force[alpha] = std::min(force[alpha], most / yields(alpha));
 }
 
-/// theta_2 F_1 - theta_1 F_2, or F - S psi, where a psi out of reach is cut.
-Vector MembraneMeasure::force_on_closed_gap(const MembraneOperator& membranes, double reach) const {
+/// theta_2 F_1 - theta_1 F_2, or F - S psi.
+Vector MembraneMeasure::force_on_closed_gap(const MembraneOperator& membranes, const Vector* obstacle) const {
   Vector force(*membranes.load[0], Teuchos::Copy);
   if (count_ == 2) {
     force.update(-yields(1), *membranes.load[1], yields(0));
     return force;
   }
-  Vector psi(*membranes.obstacle, Teuchos::Copy);
-  const auto height = psi.getLocalViewDevice(Tpetra::Access::ReadWrite);
-  Kokkos::parallel_for(
-      "thixis::models::in_reach", Range(0, height.extent_int(0)), KOKKOS_LAMBDA(int l) {
-        if (height(l, 0) < reach) height(l, 0) = reach;
-      });
+  const Vector& psi = obstacle ? *obstacle : *membranes.obstacle;
   membranes.matrix[0]->apply(psi, force, Teuchos::NO_TRANS, -membranes.factor[0], 1);
   return force;
 }
