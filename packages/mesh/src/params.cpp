@@ -25,7 +25,8 @@ std::optional<Mistake> corners_mistake(const MeshParams& params) {
   if (!(width > 0 && height > 0 && std::isfinite(width) && std::isfinite(height)))
     return Mistake{"upper", "write finite coordinates, each larger than that of 'lower'."};
   for (int d = 0; d < 2; ++d)
-    if (auto found = extent_mistake(params.lower[d], params.upper[d], params.cells_per_side * std::exp2(params.refinements))) return found;
+    if (auto found = extent_mistake(params.lower[d], params.upper[d], params.cells_per_side * std::exp2(std::min(params.refinements, 30))))
+      return found;
   return std::nullopt;
 }
 

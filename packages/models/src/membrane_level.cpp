@@ -9,7 +9,6 @@
 #include "thixis/core/error.hpp"
 #include "thixis/core/text.hpp"
 #include "thixis/method/values_at.hpp"
-#include "thixis/scene/heights.hpp"
 
 namespace thixis::models {
 namespace {
@@ -101,11 +100,11 @@ void MembraneLevel::measure_from_rest() {
     size_[alpha] = std::max(start_[alpha], heights.size(alpha));
     space_->interpolate(*scene::constant(rest_[alpha]), 0, *u.getVectorNonConst(alpha));
   }
-  const Teuchos::RCP<const Vector> in_reach = scene_.count == 1 ? obstacle_above(reach(std::min(heights.low[0], rest_[0]))) : Teuchos::null;
-  problem_->measure_from({&u, rest_, size_, in_reach.get(), [this](int alpha) { return force_alone(alpha).norm2(); }});
+  problem_->measure_from({&u, rest_, size_, scene_.count == 1 ? reach(std::min(heights.low[0], rest_[0])) : 0,
+                          [this](int alpha) { return force_alone(alpha).norm2(); }});
 }
 
-void MembraneLevel::measure_from(const algebra::MultiVector& u) { problem_->measure_from({&u, rest_, size_, nullptr, {}}, body_); }
+void MembraneLevel::measure_from(const algebra::MultiVector& u) { problem_->measure_from({&u, rest_, size_, 0, {}}, body_); }
 
 /// A linear solver takes some 14 digits off the residual there, as a norm: at one point what rounding leaves of |u| = (sum_l u_l²)^½ may
 /// remain.
@@ -129,23 +128,6 @@ double MembraneLevel::reach(double low) const {
   Vector softness(space_->map());
   softness.reciprocal(problem_->measure().diagonal(0));
   return low - 4 * force_alone(0).norm1() * softness.normInf();
-}
-
-/// The interpolant of max(psi, low), or null where psi is nowhere below. It is not the interpolant that is cut: on faces, steps of a psi
-/// far below leave coefficients far above it.
-Teuchos::RCP<const Vector> MembraneLevel::obstacle_above(double low) const {
-  const auto psi = problem_->membranes().obstacle->getLocalViewDevice(Tpetra::Access::ReadOnly);
-  double least = low;
-  Kokkos::parallel_reduce(
-      "thixis::models::lowest", Kokkos::RangePolicy<Vector::execution_space>(0, psi.extent_int(0)),
-      KOKKOS_LAMBDA(int l, double& lowest) {
-        if (psi(l, 0) < lowest) lowest = psi(l, 0);
-      },
-      Kokkos::Min<double>(least));
-  if (!space_->mesh().comm.any(least < low)) return Teuchos::null;
-  auto above = Teuchos::rcp(new Vector(space_->map()));
-  space_->interpolate_obstacle(*scene::at_least(scene_.obstacle, low), *above);
-  return above;
 }
 
 Rounding MembraneLevel::rounding(const Vector& X) const {

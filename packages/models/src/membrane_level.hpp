@@ -73,7 +73,6 @@ class MembraneLevel {
   void measure_from_rest();
   algebra::Vector force_alone(int alpha) const;
   double reach(double low) const;
-  Teuchos::RCP<const algebra::Vector> obstacle_above(double low) const;
   void set_lifts();
   void set_loads();
   method::Coefficients lift_of_obstacle() const;

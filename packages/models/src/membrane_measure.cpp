@@ -29,6 +29,19 @@ double pushed(const Vector& on_closed_gap, const MembraneOperator& membranes) {
   return std::sqrt(algebra::comm_of(*membranes.map()).sum(sum));
 }
 
+/// max_l psi_l at the contact points. Collective.
+double highest(const Vector& psi, const algebra::Map& points) {
+  const auto height = read(psi);
+  double worst = 0;
+  Kokkos::parallel_reduce(
+      "thixis::models::highest", Range(0, algebra::local_size(points)),
+      KOKKOS_LAMBDA(int l, double& largest) {
+        if (largest < height(l, 0)) largest = height(l, 0);
+      },
+      Kokkos::Max<double>(worst));
+  return algebra::comm_of(*psi.getMap()).max(worst);
+}
+
 }  // namespace
 
 MembraneMeasure::MembraneMeasure(const MembraneOperator& membranes) : count_(membranes.count), stiffness_(membranes.points()) {
@@ -60,7 +73,7 @@ void MembraneMeasure::set(const MembraneOperator& membranes, const Rest& rest, c
     const double share = count_ == 1 ? 1 : stiffness[1 - alpha] / (stiffness[0] + stiffness[1]);
     on_gap.update(alpha == 0 ? share : -share, acting, 1);
   }
-  const Vector on_closed = force_on_closed_gap(membranes, rest.obstacle);
+  const Vector on_closed = force_on_closed_gap(membranes, rest.reach);
   on_gap_ = on_closed.norm2();
   if (rest.force) bound_by_gap(rest, force);
   // what drives the gap reaches both membranes through contact
@@ -84,14 +97,24 @@ void MembraneMeasure::bound_by_gap(const Rest& rest, std::array<double, 2>& forc
   for (int alpha = 0; alpha < count_; ++alpha) force[alpha] = std::min(force[alpha], most / yields(alpha));
 }
 
-/// theta_2 F_1 - theta_1 F_2, or F - S psi.
-Vector MembraneMeasure::force_on_closed_gap(const MembraneOperator& membranes, const Vector* obstacle) const {
+/// theta_2 F_1 - theta_1 F_2, or F - S psi, where a psi out of reach is cut; and so is what its projection on faces leaves above it beside
+/// a step.
+Vector MembraneMeasure::force_on_closed_gap(const MembraneOperator& membranes, double reach) const {
   Vector force(*membranes.load[0], Teuchos::Copy);
   if (count_ == 2) {
     force.update(-yields(1), *membranes.load[1], yields(0));
     return force;
   }
-  const Vector& psi = obstacle ? *obstacle : *membranes.obstacle;
+  const double top = std::max(reach, highest(*membranes.obstacle, *membranes.points()));
+  Vector psi(*membranes.obstacle, Teuchos::Copy);
+  {
+    const auto height = psi.getLocalViewDevice(Tpetra::Access::ReadWrite);
+    Kokkos::parallel_for(
+        "thixis::models::in_reach", Range(0, height.extent_int(0)), KOKKOS_LAMBDA(int l) {
+          if (height(l, 0) < reach) height(l, 0) = reach;
+          if (height(l, 0) > top) height(l, 0) = top;
+        });
+  }
   membranes.matrix[0]->apply(psi, force, Teuchos::NO_TRANS, -membranes.factor[0], 1);
   return force;
 }

@@ -7,10 +7,10 @@ namespace thixis::models {
 
 /// Membranes at rest: what moves them from there is what acts.
 struct Rest {
-  const algebra::MultiVector* u = nullptr;    ///< u°_alpha, unknowns; null: zero
-  std::array<double, 2> height = {0, 0};      ///< of each membrane
-  std::array<double, 2> size = {0, 0};        ///< of each membrane: the largest height at which it is held, that of the start
-  const algebra::Vector* obstacle = nullptr;  ///< m = 1: psi where the membrane can get, its interpolant; null: psi itself
+  const algebra::MultiVector* u = nullptr;  ///< u°_alpha, unknowns; null: zero
+  std::array<double, 2> height = {0, 0};    ///< of each membrane
+  std::array<double, 2> size = {0, 0};      ///< of each membrane: the largest height at which it is held, that of the start
+  double reach = 0;                         ///< over an obstacle: the membrane comes no lower, whatever the obstacle does
   /// |forces on a membrane|, boundary data not among them; asked for where these hide what drives the gap. Empty: they cannot.
   std::function<double(int alpha)> force;
 };
@@ -58,7 +58,7 @@ class MembraneMeasure {
  private:
   void bound_by_gap(const Rest& rest, std::array<double, 2>& force) const;
   double yields(int alpha) const { return count_ == 1 ? 1 : share_[1 - alpha]; }  ///< z gains so much of what acts on u_alpha
-  algebra::Vector force_on_closed_gap(const MembraneOperator& membranes, const algebra::Vector* obstacle) const;
+  algebra::Vector force_on_closed_gap(const MembraneOperator& membranes, double reach) const;
   double carried(int alpha, const std::array<double, 2>& heights) const;
 
   int count_;

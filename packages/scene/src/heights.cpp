@@ -22,32 +22,12 @@ class Shifted final : public Field {
   double by_;
 };
 
-class AtLeast final : public Field {
- public:
-  AtLeast(FieldPtr f, double bound) : f_(std::move(f)), bound_(bound) {}
-  void evaluate(const Points& points, double t, double* values) const override {
-    f_->evaluate(points, t, values);
-    for (std::size_t i = 0; i < points.count; ++i) values[i] = std::max(values[i], bound_);
-  }
-  bool steady() const override { return f_->steady(); }
-  double cancelled() const override { return f_->cancelled(); }
-
- private:
-  FieldPtr f_;
-  double bound_;
-};
-
 }  // namespace
 
 FieldPtr shifted(const FieldPtr& f, double by) {
   if (!f || by == 0) return f;
   if (const double* value = f->constant()) return constant(*value + by);
   return std::make_shared<Shifted>(f, by);
-}
-
-FieldPtr at_least(const FieldPtr& f, double bound) {
-  if (const double* value = f->constant()) return constant(std::max(*value, bound));
-  return std::make_shared<AtLeast>(f, bound);
 }
 
 MembraneScene counted_from(double origin, MembraneScene scene) {
