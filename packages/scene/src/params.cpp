@@ -188,19 +188,21 @@ void examine_two_phase(const SceneParams& params, const Report& report) {
   if (params.flow) examine_flow(*params.flow, report);
 }
 
-}  // namespace
+/// Whether expressions may use it.
+bool is_right(const Constants::value_type& constant) {
+  try {
+    const core::Expression nothing("0", {"x", "y", "t", "r"}, {constant});
+    return true;
+  } catch (const core::InputError&) {
+    return false;
+  }
+}
 
-namespace {
-
-/// Those that expressions may use.
+/// The others are reported by examine_constants.
 Constants with_right_names(const Constants& constants) {
   Constants right;
-  for (const auto& constant : constants) try {
-      core::Expression("0", {"x", "y", "t", "r"}, {constant});
-      right.insert(constant);
-    } catch (const core::InputError&) {
-      // reported by examine_constants
-    }
+  for (const auto& constant : constants)
+    if (is_right(constant)) right.insert(constant);
   return right;
 }
 
