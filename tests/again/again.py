@@ -12,7 +12,7 @@ import sys
 from pathlib import Path
 
 kind, what, program, *overrides = sys.argv[1:]
-scratch = Path.cwd() / kind / Path(what).stem
+scratch = Path.cwd() / kind / f"{Path(what).parent.name}_{Path(what).stem}"  # decks of different models have the same name
 shutil.rmtree(scratch, ignore_errors=True)
 scratch.mkdir(parents=True)
 
