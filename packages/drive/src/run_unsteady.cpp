@@ -60,8 +60,8 @@ Found found(const RunParams& params, const models::Model& model, const models::E
   return found;
 }
 
-/// Where most of a bound comes from the lengths of the steps, it says nothing of the mesh. No number: `time` is a sum of roots, the bound the
-/// root of a sum, and the part may be larger than the whole.
+/// Where most of a bound comes from the lengths of the steps, it says nothing of the mesh. No number: `time` is a sum of roots, the bound
+/// the root of a sum, and the part may be larger than the whole.
 std::string time_decides(const complementarity::Estimate& bound) {
   if (!(bound.time.value_or(0) > 0.7 * bound.total)) return "";
   return ", most of it for the lengths of the steps: shorter ones (time/step) make it smaller, a finer mesh does not";
