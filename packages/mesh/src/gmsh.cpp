@@ -1,7 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <limits>
 #include <new>
 #include <numeric>
@@ -9,6 +7,7 @@
 
 #include "msh_content.hpp"
 #include "thixis/core/error.hpp"
+#include "thixis/core/file.hpp"
 #include "triangulation.hpp"
 
 namespace thixis::mesh {
@@ -17,19 +16,23 @@ namespace {
 using core::FileError;
 using core::InputError;
 
+void require_open(core::RegularFile::State state, const std::string& name) {
+  using State = core::RegularFile::State;
+  if (state == State::open) return;
+  throw FileError(name +
+                  (state == State::folder    ? " is a folder"
+                   : state == State::special ? " is no regular file, but a pipe or a device"
+                                             : " can not be opened") +
+                  "; write the name of a Gmsh mesh relative to the deck.");
+}
+
 std::string bytes_of(const std::string& path, const std::string& name) {
-  const std::string instead = "; write the name of a Gmsh mesh relative to the deck.";
-  std::error_code failed;
-  if (std::filesystem::is_directory(path, failed)) throw FileError(name + " is a folder" + instead);
-  if (std::filesystem::exists(path, failed) && !std::filesystem::is_regular_file(path, failed))
-    throw FileError(name + " is no regular file, but a pipe or a device" + instead);
-  std::ifstream file(path, std::ios::binary);
-  if (!file.is_open()) throw FileError(name + " can not be opened" + instead);
-  const std::uintmax_t size = std::filesystem::file_size(path, failed), most = std::uintmax_t(16) << 30;
-  if (failed || size > most)
+  core::RegularFile file(path);
+  require_open(file.state(), name);
+  if (file.size() > std::size_t{16} << 30)
     throw FileError(name + " is larger than 16 GB; the coarsest mesh is held by every rank: give a coarser one and more refinements.");
-  std::string bytes(size, '\0');
-  if (!file.read(bytes.data(), static_cast<std::streamsize>(size))) throw FileError(name + " can not be read to its end; copy it anew.");
+  std::string bytes(file.size(), '\0');
+  if (file.read(bytes.data(), bytes.size()) < bytes.size()) throw FileError(name + " can not be read to its end; copy it anew.");
   return bytes;
 }
 

@@ -11,9 +11,10 @@ namespace {
 /// Cells of a coarsest mesh that a rank can be asked to hold whole.
 constexpr double whole_limit = 2e7;
 
-/// An extent along one coordinate, cut into so many pieces.
-std::optional<Mistake> extent_mistake(double lower, double upper, double pieces) {
-  const std::string mistake = lengths_mistake(std::max(std::abs(lower), std::abs(upper)), (upper - lower) / pieces);
+/// Cells of a length between two coordinates, before they are refined. Of more refinements than that no mesh can be held.
+std::optional<Mistake> length_mistake(double lower, double upper, double length, int refinements) {
+  const double finest = length / std::exp2(std::min(refinements, 30));
+  const std::string mistake = lengths_mistake(std::max(std::abs(lower), std::abs(upper)), finest);
   if (mistake.empty()) return std::nullopt;
   return Mistake{"upper", mistake};
 }
@@ -24,9 +25,6 @@ std::optional<Mistake> corners_mistake(const MeshParams& params) {
   const double width = params.upper[0] - params.lower[0], height = params.upper[1] - params.lower[1];
   if (!(width > 0 && height > 0 && std::isfinite(width) && std::isfinite(height)))
     return Mistake{"upper", "write finite coordinates, each larger than that of 'lower'."};
-  for (int d = 0; d < 2; ++d)
-    if (auto found = extent_mistake(params.lower[d], params.upper[d], params.cells_per_side * std::exp2(std::min(params.refinements, 30))))
-      return found;
   return std::nullopt;
 }
 
@@ -45,6 +43,8 @@ std::optional<Mistake> rectangle_mistake(const MeshParams& params) {
              << shorter / params.cells_per_side << ".";
     return Mistake{"cells per side", sentence.str()};
   }
+  for (int d = 0; d < 2; ++d)
+    if (auto found = length_mistake(params.lower[d], params.upper[d], shorter / params.cells_per_side, params.refinements)) return found;
   return std::nullopt;
 }
 
@@ -60,13 +60,18 @@ std::optional<Mistake> interval_mistake(const MeshParams& params) {
   if (!is_end(params.upper, defaults.upper)) return Mistake{"upper", "an interval ends at one coordinate; write it, such as {1}."};
   if (!(params.upper[0] > params.lower[0] && std::isfinite(params.upper[0] - params.lower[0])))
     return Mistake{"upper", "write a finite coordinate larger than that of 'lower'."};
-  return extent_mistake(params.lower[0], params.upper[0], params.cells[0]);
+  return length_mistake(params.lower[0], params.upper[0], (params.upper[0] - params.lower[0]) / params.cells[0], params.refinements);
 }
 
 std::optional<Mistake> tensor_mistake(const MeshParams& params) {
   if (params.cells.size() != 2 || params.cells[0] < 1 || params.cells[1] < 1)
     return Mistake{"cells", "write the numbers of rectangles along x and along y, such as {40, 20}."};
-  return corners_mistake(params);
+  if (auto found = corners_mistake(params)) return found;
+  for (int d = 0; d < 2; ++d)
+    if (auto found =
+            length_mistake(params.lower[d], params.upper[d], (params.upper[d] - params.lower[d]) / params.cells[d], params.refinements))
+      return found;
+  return std::nullopt;
 }
 
 }  // namespace

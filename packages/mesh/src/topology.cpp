@@ -60,7 +60,7 @@ LocalIndex count_faces(const std::vector<Side>& sides, const Triangulation& tria
   return faces;
 }
 
-void require_positive_areas(const Triangulation& triangulation, const HostMesh& host) {
+void require_sound_cells(const Triangulation& triangulation, const HostMesh& host) {
   for (std::size_t K = 0; K < triangulation.cells.size(); ++K) {
     double longest = 0, farthest = 0;
     for (int i = 0; i < 3; ++i) {
@@ -154,7 +154,7 @@ Mesh make_mesh(const Triangulation& triangulation, const core::Comm& comm) {
   }
   for (LocalIndex K = 0; K < mesh.cells; ++K)
     for (int i = 0; i < 3; ++i) host.cell_vertices(K, i) = triangulation.cells[K][i];
-  require_positive_areas(triangulation, host);
+  require_sound_cells(triangulation, host);
 
   Kokkos::deep_copy(host.face_cells, -1);
   LocalIndex F = -1;

@@ -51,9 +51,9 @@ std::string FlowFindings::objection(double tolerance, bool conditions) const {
   if (diverged()) {
     const int c = unbalanced[water].violation > unbalanced[hydrogen].violation ? water : hydrogen;
     return fmt::format(
-        "Newton's method diverges: its last state leaves the balance of {} open {}, by {:.2e} times what counts in the step. Perhaps there "
-        "is "
-        "no solution, as where more is drawn than there is or can flow in: let what draws it (scene/flow) become weaker or end before.",
+        "Newton's method diverges: its last state leaves the balance of {} open {}, by {:.2e} times what counts in the step. "
+        "Perhaps there is no solution, as where more is drawn than there is or can flow in: let what draws it (scene/flow) become weaker "
+        "or end before.",
         names[c], where(unbalanced[c]), unbalanced[c].violation);
   }
   for (int c : {water, hydrogen})

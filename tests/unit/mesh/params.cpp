@@ -155,4 +155,20 @@ TEST(lengths, that_arithmetic_can_not_follow_are_refused) {
   EXPECT_NE(lengths_mistake(1e-59, 1e-61).find("units"), std::string::npos);
 }
 
+TEST(lengths, are_those_of_the_cells_of_each_generator) {
+  MeshParams params;
+  params.lower = {1e10, 1e10};
+  params.upper = {1e10 + 1, 1e10 + 1};
+  params.cells_per_side = 1000;
+  EXPECT_FALSE(mistake(params));
+  params.refinements = 12;
+  EXPECT_TRUE(mistake(params));
+  params.refinements = 0;
+  params.cells = {1000000, 1};
+  params.generator = Generator::tensor;
+  EXPECT_TRUE(mistake(params));
+  params.cells = {1000, 1};
+  EXPECT_FALSE(mistake(params));
+}
+
 }  // namespace thixis::mesh
