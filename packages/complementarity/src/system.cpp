@@ -129,6 +129,8 @@ void System::end_step(long long changed) {
 
 void System::solve(const algebra::Vector& X, const State& state, const algebra::Vector& R, algebra::Vector& dX) {
   const double residual = state.residual;
+  const bool settled = solved_ && state.active.fingerprint() == contact_set_;
+  contact_set_ = state.active.fingerprint();
   double rhs = problem_.rhs_norm(X, R);
   if (!(rhs > 0)) rhs = residual;
   algebra::LinearStop stop;
@@ -148,7 +150,7 @@ void System::solve(const algebra::Vector& X, const State& state, const algebra::
   left_ = std::max(stop.tolerance, report.residual);
   if (looked_at_ != report.iterations || report.shortened) forget_estimate();
   judge(report, stop.tolerance, residual, dX.norm2());
-  if (const int sweeps = newton_.sweeps.value_or(0); sweeps > 0 && function_ == CFunction::min) {
+  if (const int sweeps = newton_.sweeps.value_or(0); sweeps > 0 && function_ == CFunction::min && !settled) {
     algebra::Vector relaxed(X, Teuchos::Copy);
     relaxed.update(1, dX, 1);
     problem_.relax(relaxed, sweeps);

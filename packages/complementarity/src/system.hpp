@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <string>
 
 #include "adaptive_rule.hpp"
@@ -37,8 +38,9 @@ class System {
   State residual(const algebra::Vector& X, algebra::Vector& R);
   /// A(X) for the contact set that `residual` found at X; kept inside the problem.
   void linearize(const algebra::Vector& X, const ActiveSet& active);
-  /// A(X) dX = -R with the A of the last `linearize`, then (Newton-min) the smoothing that the deck asks for; throws StepFailed on all
-  /// ranks.
+  /// A(X) dX = -R with the A of the last `linearize`, then (Newton-min) the smoothing that the deck asks for: it finds the contact set, and
+  /// where that did not change in a step that was solved it would only bring back residuals that the step takes off. Throws StepFailed on
+  /// all ranks.
   void solve(const algebra::Vector& X, const State& state, const algebra::Vector& R, algebra::Vector& dX);
 
   /// The estimate at an iterate that is to be judged, if there is anybody who wants it; kept until the iterate moves.
@@ -85,6 +87,7 @@ class System {
   int linear_iterations_ = 0;
   int failures_ = 0;  ///< linear systems in a row that were not solved
   bool solved_ = false;
+  std::uint64_t contact_set_ = 0;  ///< fingerprint of the one that the last step started from
   double left_ = 0;
   double worth_looking_ = 0;          ///< residual of the linear system below which the next estimate is asked for
   int waiting_ = 0;                   ///< looks without an estimate since the last one

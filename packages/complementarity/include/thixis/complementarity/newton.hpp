@@ -91,7 +91,8 @@ struct NewtonReport {
 /// `adaptive` without an estimator is an InputError.
 ///
 /// **Smoothing.** With `sweeps` > 0 Problem::relax corrects X^k after each undamped Newton-min step; |R| and the contact set are those of
-/// the corrected iterate, so that both conditions above keep their meaning.
+/// the corrected iterate, so that both conditions above keep their meaning. Not after a step that begins with the contact set of the step
+/// before, whose linear system was solved: the set is found, and what is left is rounding.
 ///
 /// **Globalization.** Undamped steps use `c_function` and are never judged by |R|: it grows by orders of magnitude in a good Newton-min
 /// run. Damped steps use Fischer–Burmeister and Armijo backtracking on its merit function ½|R|². They last until |R| has fallen to a tenth
