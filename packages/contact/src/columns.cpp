@@ -1,0 +1,106 @@
+#include "thixis/algebra/tpetra.hpp"
+#include "thixis/contact/system.hpp"
+
+namespace thixis::contact {
+namespace {
+
+using algebra::MultiVector;
+using algebra::Vector;
+using Range = Kokkos::RangePolicy<Vector::execution_space>;
+
+/// `columns` columns of x on `map`, which begin at `first`.
+MultiVector columns_of(const Vector& x, const algebra::MapPtr& map, LocalIndex first, int columns) {
+  using View = MultiVector::dual_view_type::t_dev;
+  const auto values = x.getLocalViewDevice(Tpetra::Access::ReadOnly);
+  const std::size_t rows = algebra::local_size(*map);
+  return MultiVector(map, View(const_cast<double*>(values.data()) + first, rows, columns));
+}
+
+MultiVector columns_of(Vector& x, const algebra::MapPtr& map, LocalIndex first, int columns) {
+  using View = MultiVector::dual_view_type::t_dev;
+  const auto values = x.getLocalViewDevice(Tpetra::Access::ReadWrite);
+  const std::size_t rows = algebra::local_size(*map);
+  return MultiVector(map, View(values.data() + first, rows, columns));
+}
+
+LocalIndex end_of_fields(const System& system) { return system.fields() * algebra::local_size(*system.map()); }
+
+}  // namespace
+
+algebra::MapPtr map_of_gaps(const System& system) {
+  if (system.gaps() == 1) return system.points();
+  return algebra::contiguous_map(system.gaps() * algebra::local_size(*system.points()), algebra::comm_of(*system.map()));
+}
+
+algebra::MapPtr map_of_all(const System& system) {
+  return algebra::contiguous_map(end_of_fields(system) + system.gaps() * algebra::local_size(*system.points()),
+                                 algebra::comm_of(*system.map()));
+}
+
+MultiVector fields(const System& system, const Vector& X) { return columns_of(X, system.map(), 0, system.fields()); }
+MultiVector fields_nonconst(const System& system, Vector& X) { return columns_of(X, system.map(), 0, system.fields()); }
+MultiVector multipliers(const System& system, const Vector& X) {
+  return columns_of(X, system.points(), end_of_fields(system), system.gaps());
+}
+MultiVector multipliers_nonconst(const System& system, Vector& X) {
+  return columns_of(X, system.points(), end_of_fields(system), system.gaps());
+}
+MultiVector gaps(const System& system, const Vector& K) { return columns_of(K, system.points(), 0, system.gaps()); }
+MultiVector gaps_nonconst(const System& system, Vector& K) { return columns_of(K, system.points(), 0, system.gaps()); }
+
+void interlace(const MultiVector& columns, Vector& x) {
+  const auto in = columns.getLocalViewDevice(Tpetra::Access::ReadOnly);
+  const auto out = x.getLocalViewDevice(Tpetra::Access::OverwriteAll);
+  const int width = in.extent_int(1);
+  Kokkos::parallel_for(
+      "thixis::contact::interlace", Range(0, in.extent_int(0)), KOKKOS_LAMBDA(int l) {
+        for (int f = 0; f < width; ++f) out(width * l + f, 0) = in(l, f);
+      });
+}
+
+void separate(const Vector& x, MultiVector& columns) {
+  const auto in = x.getLocalViewDevice(Tpetra::Access::ReadOnly);
+  const auto out = columns.getLocalViewDevice(Tpetra::Access::OverwriteAll);
+  const int width = out.extent_int(1);
+  Kokkos::parallel_for(
+      "thixis::contact::separate", Range(0, out.extent_int(0)), KOKKOS_LAMBDA(int l) {
+        for (int f = 0; f < width; ++f) out(l, f) = in(width * l + f, 0);
+      });
+}
+
+void gap(const System& system, const MultiVector& u, MultiVector& K) {
+  const auto of_fields = u.getLocalViewDevice(Tpetra::Access::ReadOnly);
+  const auto out = K.getLocalViewDevice(Tpetra::Access::OverwriteAll);
+  const auto node = system.constraint.node;
+  const auto frames = system.constraint.frames;
+  const int m = system.fields(), q = system.gaps();
+  Kokkos::parallel_for(
+      "thixis::contact::gap", Range(0, out.extent_int(0)), KOKKOS_LAMBDA(int p) {
+        const LocalIndex l = node(p);
+        const Small& Q = frames.inverse(frames.at(l));
+        for (int g = 0; g < q; ++g) {
+          double sum = 0;
+          for (int i = 0; i < m; ++i) sum += Q(m - q + g, i) * of_fields(l, i);
+          out(p, g) = sum;
+        }
+      });
+  if (!system.constraint.offset.is_null()) K.update(1, *system.constraint.offset, 1);
+}
+
+void subtract_pressure(const System& system, const MultiVector& lambda, MultiVector& y) {
+  const auto pressure = lambda.getLocalViewDevice(Tpetra::Access::ReadOnly);
+  const auto D = system.constraint.pairing->getLocalViewDevice(Tpetra::Access::ReadOnly);
+  const auto out = y.getLocalViewDevice(Tpetra::Access::ReadWrite);
+  const auto node = system.constraint.node;
+  const auto frames = system.constraint.frames;
+  const int m = system.fields(), q = system.gaps();
+  Kokkos::parallel_for(
+      "thixis::contact::pressure", Range(0, pressure.extent_int(0)), KOKKOS_LAMBDA(int p) {
+        const LocalIndex l = node(p);
+        const Small& Q = frames.inverse(frames.at(l));
+        for (int i = 0; i < m; ++i)
+          for (int g = 0; g < q; ++g) out(l, i) -= Q(m - q + g, i) * D(p, 0) * pressure(p, g);
+      });
+}
+
+}  // namespace thixis::contact

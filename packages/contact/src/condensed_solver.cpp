@@ -1,0 +1,200 @@
+#include "constrained_solver.hpp"
+#include "thixis/method/condensation.hpp"
+
+namespace thixis::contact {
+namespace {
+
+using algebra::MultiVector;
+using algebra::Vector;
+using method::ElementUnknowns;
+using Matrices = Kokkos::View<double***, Kokkos::LayoutRight>;
+using Range = Kokkos::RangePolicy<Vector::execution_space>;
+
+/// (element, size i + f): unknown i of the element, f of the part.
+ElementUnknowns interlaced(const ElementUnknowns& elements, int size) {
+  if (size == 1) return elements;
+  const Kokkos::View<LocalIndex**, Kokkos::LayoutRight> all("thixis::contact::element_unknowns", elements.extent(0),
+                                                            size * elements.extent(1));
+  Kokkos::parallel_for(
+      "thixis::contact::element_unknowns", Range(0, elements.extent_int(0)), KOKKOS_LAMBDA(int e) {
+        for (int i = 0; i < elements.extent_int(1); ++i)
+          for (int f = 0; f < size; ++f) all(e, size * i + f) = elements(e, i) < 0 ? -1 : size * elements(e, i) + f;
+      });
+  return all;
+}
+
+/// 1 / the number of elements that share each unknown, for the rows of this rank; 1 for interior ghosts.
+Kokkos::View<double*> share_of_elements(const ElementUnknowns& elements, LocalIndex columns) {
+  const Kokkos::View<double*> share("thixis::contact::share", columns);
+  Kokkos::parallel_for(
+      "thixis::contact::count_elements", Range(0, elements.extent_int(0)), KOKKOS_LAMBDA(int e) {
+        for (int i = 0; i < elements.extent_int(1); ++i)
+          if (elements(e, i) >= 0) Kokkos::atomic_add(&share(elements(e, i)), 1.0);
+      });
+  Kokkos::parallel_for(
+      "thixis::contact::share", Range(0, columns), KOKKOS_LAMBDA(int column) {
+        if (share(column) > 0) share(column) = 1 / share(column);
+      });
+  return share;
+}
+
+/// The matrix of a cell, gaps in contact cleared in it: summed over the cells, it is the cleared matrix. The penalty of a gap is spread
+/// over the cells of its node.
+template <class View>
+struct Constrain {
+  TransformedBlocks blocks;
+  int means;
+  Matrices S[most_matrices];
+  ElementUnknowns elements;
+  LocalIndex first;
+  View contact, penalty;  ///< at columns
+  Kokkos::View<const double*> share;
+  Matrices A;  ///< out, overwritten
+
+  KOKKOS_FUNCTION bool known(LocalIndex node, int i) const {
+    const int gap = blocks.part.gap(i, means);
+    return gap >= 0 && contact(node, gap) > 0;
+  }
+  KOKKOS_FUNCTION double added(LocalIndex node, int i) const {
+    const int gap = blocks.part.gap(i, means);
+    return gap >= 0 ? share(node) * blocks.part.stretch[i] * blocks.part.stretch[i] * penalty(node, gap) : 0;
+  }
+  KOKKOS_FUNCTION void pair(int e, int i, int j, const Small* c) const {
+    const int size = blocks.part.size;
+    const LocalIndex row = elements(first + e, i), column = elements(first + e, j);
+    for (int f = 0; f < size; ++f)
+      for (int g = 0; g < size; ++g) {
+        double value = 0;
+        for (int k = 0; k < blocks.matrices; ++k) value += c[k](f, g) * S[k](e, i, j);
+        if (i == j && f == g) value += added(row, f);
+        else if (known(row, f) || known(column, g)) value = 0;
+        A(e, size * i + f, size * j + g) = value;
+      }
+  }
+  KOKKOS_FUNCTION void nothing(int e, int i, int j) const {
+    const int size = blocks.part.size;
+    for (int f = 0; f < size; ++f)
+      for (int g = 0; g < size; ++g) A(e, size * i + f, size * j + g) = i == j && f == g ? 1 : 0;
+  }
+  KOKKOS_FUNCTION void operator()(int e) const {
+    Small room[most_matrices];
+    for (int i = 0; i < elements.extent_int(1); ++i)
+      for (int j = 0; j < elements.extent_int(1); ++j) {
+        const LocalIndex row = elements(first + e, i), column = elements(first + e, j);
+        if (row < 0 || column < 0) nothing(e, i, j);
+        else pair(e, i, j, blocks.at(row, column, room));
+      }
+  }
+};
+
+class CondensedSolver final : public ConstrainedSolver {
+ public:
+  CondensedSolver(const System& system, const Part& part, const algebra::LinearParams& params,
+                  const Teuchos::RCP<const MultiVector>& coordinates)
+      : system_(system),
+        size_(part.size),
+        condensation_(algebra::interlaced(system.map(), size_), algebra::interlaced(system.S.matrix[0]->getColMap(), size_),
+                      interlaced(cells().elements, size_), size_ * cells().interior,
+                      cells().symmetric ? method::LocalForm::positive_definite : method::LocalForm::general),
+        solver_(params),
+        coordinates_(coordinates_left(*coordinates)),
+        share_(share_of_elements(cells().elements, algebra::local_columns(*system.S.matrix[0]))) {}
+
+  void set_matrix(const Part& part, const MultiVector& contact, const MultiVector& penalty) override {
+    const MultiVector contact_columns = at_columns(system_, contact), penalty_columns = at_columns(system_, penalty);
+    const auto known = contact_columns.getLocalViewDevice(Tpetra::Access::ReadOnly);
+    Constrain<std::decay_t<decltype(known)>> kernel{TransformedBlocks(system_, part), system_.fields() - system_.gaps()};
+    kernel.elements = cells().elements;
+    kernel.contact = known;
+    kernel.penalty = penalty_columns.getLocalViewDevice(Tpetra::Access::ReadOnly);
+    kernel.share = share_;
+    condensation_.set_matrix([&](LocalIndex first, const Matrices& A) {
+      reserve(A.extent_int(0));
+      for (std::size_t k = 0; k < cells().form.size(); ++k) {
+        kernel.S[k] = Kokkos::subview(local_[k], std::pair(0, A.extent_int(0)), Kokkos::ALL, Kokkos::ALL);
+        cells().form[k]->matrices(first, kernel.S[k]);
+      }
+      kernel.first = first;
+      kernel.A = A;
+      Kokkos::parallel_for("thixis::contact::constrain", Range(0, A.extent_int(0)), kernel);
+    });
+    solver_.set_matrix(condensation_.matrix(), size_, coordinates_);
+  }
+
+  algebra::LinearReport solve(const Vector& rhs, Vector& x, const algebra::LinearStop& stop) const override {
+    Vector b(condensation_.rows()), y(condensation_.rows());
+    condensation_.reduce(rhs, b);
+    take(x, y);
+    algebra::LinearStop inner = stop;
+    if (stop.criterion)
+      inner.criterion = [&](const Vector& iterate, int i, double residual) {
+        condensation_.recover(rhs, iterate, x);
+        return stop.criterion(x, i, residual);
+      };
+    const auto report = solver_.solve(b, y, inner);
+    condensation_.recover(rhs, y, x);
+    return report;
+  }
+
+  double residual(const Vector& rhs, Vector& x) const override {
+    Vector b(condensation_.rows()), y(condensation_.rows()), r(condensation_.rows());
+    condensation_.reduce(rhs, b);
+    take(x, y);
+    condensation_.recover(rhs, y, x);
+    return algebra::residual(*condensation_.matrix(), b, y, r);
+  }
+
+  GlobalIndex nonzeros() const override { return static_cast<GlobalIndex>(condensation_.matrix()->getGlobalNumEntries()); }
+
+ private:
+  /// The part of x that is not eliminated.
+  void take(const Vector& x, Vector& left) const {
+    const auto original = condensation_.original_row();
+    const auto all = x.getLocalViewDevice(Tpetra::Access::ReadOnly);
+    const auto out = left.getLocalViewDevice(Tpetra::Access::OverwriteAll);
+    Kokkos::parallel_for(
+        "thixis::contact::left", Range(0, out.extent_int(0)), KOKKOS_LAMBDA(int row) { out(row, 0) = all(original(row), 0); });
+  }
+
+  Teuchos::RCP<const MultiVector> coordinates_left(const MultiVector& coordinates) const {
+    const auto original = condensation_.original_row();
+    const int size = size_, nodes = original.extent_int(0) / size;
+    auto left =
+        Teuchos::rcp(new MultiVector(algebra::contiguous_map(nodes, algebra::comm_of(*system_.map())), coordinates.getNumVectors()));
+    const auto all = coordinates.getLocalViewDevice(Tpetra::Access::ReadOnly);
+    const auto out = left->getLocalViewDevice(Tpetra::Access::OverwriteAll);
+    Kokkos::parallel_for(
+        "thixis::contact::coordinates_left", Range(0, nodes), KOKKOS_LAMBDA(int node) {
+          for (int d = 0; d < out.extent_int(1); ++d) out(node, d) = all(original(size * node) / size, d);
+        });
+    return left;
+  }
+
+  /// Their forms may be others at every set_matrix.
+  const CellForms& cells() const { return *system_.S.cells; }
+
+  /// Buffers for the matrices of so many cells.
+  void reserve(LocalIndex count) {
+    const auto width = cells().elements.extent(1);
+    local_.resize(cells().form.size());
+    for (auto& matrices : local_)
+      if (matrices.extent_int(0) < count) matrices = Matrices("thixis::contact::cell_matrices", count, width, width);
+  }
+
+  const System& system_;
+  int size_;
+  method::Condensation condensation_;
+  algebra::Solver solver_;
+  Teuchos::RCP<const MultiVector> coordinates_;
+  Kokkos::View<const double*> share_;
+  std::vector<Matrices> local_;
+};
+
+}  // namespace
+
+std::unique_ptr<ConstrainedSolver> make_condensed_solver(const System& system, const Part& part, const algebra::LinearParams& params,
+                                                         const Teuchos::RCP<const MultiVector>& coordinates) {
+  return std::make_unique<CondensedSolver>(system, part, params, coordinates);
+}
+
+}  // namespace thixis::contact
