@@ -86,13 +86,13 @@ PointForces point_forces(const MembraneSolution& solution, std::vector<double> l
   const Extent domain = extent_of(solution.space.mesh());
   const auto points = static_cast<double>(std::max<std::size_t>(membranes.points()->getGlobalNumElements(), 1));
   PointForces forces;
-  for (int alpha = 0; alpha < membranes.count; ++alpha) {
+  for (int alpha = 0; alpha < membranes.count(); ++alpha) {
     const double curvature = measure.displacement(alpha, solution.x.u) / (domain.width * domain.width);
     largest[alpha] =
         std::max(largest[alpha], largest_tension(*solution.scene.tension[alpha], solution.space.mesh()) * curvature * domain.area / points);
-    forces.through_contact += (membranes.count == 1 ? 1 : membranes.theta[1 - alpha]) * largest[alpha];
+    forces.through_contact += (membranes.count() == 1 ? 1 : membranes.theta[1 - alpha]) * largest[alpha];
   }
-  for (int alpha = 0; alpha < membranes.count; ++alpha)
+  for (int alpha = 0; alpha < membranes.count(); ++alpha)
     forces.on_membrane.push_back(std::max(largest[alpha], forces.through_contact) +
                                  measure.round_off(alpha, solution.x.u) / MembraneMeasure::smallest_digit);
   forces.through_contact = *std::min_element(forces.on_membrane.begin(), forces.on_membrane.end());

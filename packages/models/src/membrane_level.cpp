@@ -168,15 +168,12 @@ void MembraneLevel::move_to(double t) {
   if (!steady_loads_) set_loads();
 }
 
-Teuchos::RCP<Vector> MembraneLevel::joined(const Fields& x) const {
-  auto X = Teuchos::rcp(new Vector(problem_->map()));
-  join(x, *X);
-  return X;
-}
-
-Fields MembraneLevel::from_coarse(const MembraneLevel& coarse, const Vector& coarse_X) const {
-  Fields coarse_x = coarse.fields(coarse_X), x = fields();
-  coarse.problem_->settle(coarse_x);
+Teuchos::RCP<Vector> MembraneLevel::from_coarse(const MembraneLevel& coarse, const Vector& coarse_X) const {
+  Vector settled(coarse_X, Teuchos::Copy);
+  coarse.problem_->settle(settled);
+  const Fields coarse_x = coarse.fields(settled);
+  const auto X = zero();
+  Fields x = fields(*X);
   for (int alpha = 0; alpha < scene_.count; ++alpha) {
     Coefficients u = coarse.membrane(coarse_x, alpha);
     if (scene_.count == 1) u = difference(u, coarse.obstacle_);  // the gap: where it is closed it stays so
@@ -184,7 +181,7 @@ Fields MembraneLevel::from_coarse(const MembraneLevel& coarse, const Vector& coa
   }
   if (scene_.count == 1) x.u.update(1, *problem_->membranes().obstacle, 1);
   space_->prolongate_multiplier(*coarse.space_, coarse_x.lambda, x.lambda);
-  return x;
+  return X;
 }
 
 std::vector<output::CheckpointBlock> MembraneLevel::save(const Vector& X, const std::string& suffix) const {
@@ -207,7 +204,8 @@ std::vector<output::CheckpointBlock> MembraneLevel::save(const Vector& X, const 
 }
 
 Teuchos::RCP<Vector> MembraneLevel::restore(const output::StoredCheckpoint& stored, const std::string& suffix) const {
-  Fields x = fields();
+  const auto X = zero();
+  Fields x = fields(*X);
   const auto ids = space_->unknown_ids();
   const auto fetch = [&](const std::string& name, Vector& v) {
     check_size(stored, name + suffix, static_cast<GlobalIndex>(v.getGlobalLength()));
@@ -223,7 +221,7 @@ Teuchos::RCP<Vector> MembraneLevel::restore(const output::StoredCheckpoint& stor
     space_->interpolate(*scene::constant(origin - origin_), 0, by);
     for (int alpha = 0; alpha < scene_.count; ++alpha) x.u.getVectorNonConst(alpha)->update(1, by, 1);
   }
-  return joined(x);
+  return X;
 }
 
 std::vector<output::FieldData> MembraneLevel::shown(const Vector& X, const complementarity::ActiveSet& active,
@@ -368,11 +366,10 @@ std::vector<double> MembraneLevel::share_of_upper_tension() const {
   return share;
 }
 
-MembraneIterate::MembraneIterate(const MembraneLevel& of, const Vector& X) : x(of.fields(X)), r(of.fields()), gap_l(of.problem().points()) {
-  Vector R(of.problem().map());
-  of.problem().equations(X, R);
-  split(R, r);
-  r.u.scale(-1);
+MembraneIterate::MembraneIterate(const MembraneLevel& of, const Vector& X)
+    : minus_R(of.problem().map()), x(of.fields(X)), r(of.fields(minus_R)), gap_l(of.problem().points()) {
+  of.problem().equations(X, minus_R);
+  minus_R.scale(-1);
   gap(of.problem().membranes(), x.u, gap_l);
   iterate.lambda = &x.lambda;
   iterate.gap = &gap_l;

@@ -38,14 +38,14 @@ class MembraneLevel {
   const method::Coefficients& nothing() const { return nothing_; }     ///< no boundary values
   const method::Coefficients& obstacle() const { return obstacle_; }   ///< the interpolant of psi, for count = 1
 
-  Fields fields() const { return Fields(problem_->membranes()); }
+  Teuchos::RCP<algebra::Vector> zero() const { return Teuchos::rcp(new algebra::Vector(problem_->map())); }
+  Fields fields(algebra::Vector& X) const { return Fields(problem_->membranes(), X); }
   Fields fields(const algebra::Vector& X) const { return Fields(problem_->membranes(), X); }
-  Teuchos::RCP<algebra::Vector> joined(const Fields& x) const;
   /// u_alpha with the boundary values of the time.
   method::Coefficients membrane(const Fields& x, int alpha) const { return space_->complete(*x.u.getVector(alpha), lift_[alpha]); }
 
-  /// x from the solution on a coarser mesh, which the parent cells of this one belong to.
-  Fields from_coarse(const MembraneLevel& coarse, const algebra::Vector& coarse_X) const;
+  /// X from the solution on a coarser mesh, which the parent cells of this one belong to.
+  Teuchos::RCP<algebra::Vector> from_coarse(const MembraneLevel& coarse, const algebra::Vector& coarse_X) const;
 
   /// Measures residuals by what acts on the membranes from u°, beside the forces on them. Collective.
   void measure_from(const algebra::MultiVector& u);
@@ -98,6 +98,7 @@ class MembraneLevel {
 
 /// X with what the bounds read of it.
 struct MembraneIterate {
+  algebra::Vector minus_R;
   Fields x, r;
   algebra::Vector gap_l;
   Teuchos::RCP<const algebra::Vector> residual[2];

@@ -44,19 +44,14 @@ double highest(const Vector& psi, const algebra::Map& points) {
 
 }  // namespace
 
-MembraneMeasure::MembraneMeasure(const MembraneOperator& membranes) : count_(membranes.count), stiffness_(membranes.points()) {
+MembraneMeasure::MembraneMeasure(const MembraneOperator& membranes) : count_(membranes.count()) {
   if (count_ == 2) share_ = membranes.theta;
-  const auto kappa = stiffness_.getLocalViewDevice(Tpetra::Access::ReadWrite);
-  for (int alpha = 0; alpha < count_; ++alpha) {
-    diagonal_[alpha] = Teuchos::rcp(new Vector(membranes.map()));
-    membranes.matrix[alpha]->getLocalDiagCopy(*diagonal_[alpha]);
-    diagonal_[alpha]->scale(membranes.factor[alpha]);
-    const auto S = read(*diagonal_[alpha]);
-    Kokkos::parallel_for(
-        "thixis::models::softness", Range(0, kappa.extent_int(0)), KOKKOS_LAMBDA(int l) { kappa(l, 0) += 1 / S(l, 0); });
-  }
-  Kokkos::parallel_for(
-      "thixis::models::stiffness", Range(0, kappa.extent_int(0)), KOKKOS_LAMBDA(int l) { kappa(l, 0) = 1 / kappa(l, 0); });
+  MultiVector diagonals(membranes.map(), count_);
+  membranes.system.S.diagonals(diagonals);
+  for (int alpha = 0; alpha < count_; ++alpha) diagonal_[alpha] = diagonals.getVectorNonConst(alpha);
+  weights_.field.assign(count_, 1);
+  weights_.stiffness = contact::stiffness_of_gaps(membranes.system, diagonals);
+  stiffness_ = weights_.stiffness->getVector(0);
 }
 
 void MembraneMeasure::set(const MembraneOperator& membranes, const Rest& rest, const Teuchos::RCP<Vector>* body) {
@@ -66,8 +61,8 @@ void MembraneMeasure::set(const MembraneOperator& membranes, const Rest& rest, c
   Vector acting(membranes.map()), on_gap(membranes.map());
   for (int alpha = 0; alpha < count_; ++alpha) stiffness[alpha] = diagonal_[alpha]->norm1();
   for (int alpha = 0; alpha < count_; ++alpha) {
-    acting.assign(*membranes.load[alpha]);
-    if (rest.u) membranes.matrix[alpha]->apply(*rest.u->getVector(alpha), acting, Teuchos::NO_TRANS, -membranes.factor[alpha], 1);
+    acting.assign(*membranes.load(alpha));
+    if (rest.u) membranes.apply(alpha, *rest.u->getVector(alpha), acting, -1, 1);
     force[alpha] = acting.norm2();
     if (body) force[alpha] = std::max(force[alpha], body[alpha]->norm2());
     const double share = count_ == 1 ? 1 : stiffness[1 - alpha] / (stiffness[0] + stiffness[1]);
@@ -85,7 +80,8 @@ void MembraneMeasure::set(const MembraneOperator& membranes, const Rest& rest, c
     reference_ = std::max(reference_, force[alpha]);
   }
   if (count_ == 1) reference_ = std::max(reference_, pushed(on_closed, membranes));
-  for (int alpha = 0; alpha < count_; ++alpha) weight_[alpha] = count_ == 2 && force[alpha] > 0 ? reference_ / force[alpha] : 1;
+  for (int alpha = 0; alpha < count_; ++alpha) weights_.field[alpha] = count_ == 2 && force[alpha] > 0 ? reference_ / force[alpha] : 1;
+  weights_.contact = *std::max_element(weights_.field.begin(), weights_.field.end());
 }
 
 /// A tilt that all heights have in common acts on each membrane and not on the gap: a residual of R_1 leaves theta_2 R_1 there.
@@ -100,9 +96,9 @@ void MembraneMeasure::bound_by_gap(const Rest& rest, std::array<double, 2>& forc
 /// theta_2 F_1 - theta_1 F_2, or F - S psi, where a psi out of reach is cut; and so is what its projection on faces leaves above it beside
 /// a step.
 Vector MembraneMeasure::force_on_closed_gap(const MembraneOperator& membranes, double reach) const {
-  Vector force(*membranes.load[0], Teuchos::Copy);
+  Vector force(*membranes.load(0), Teuchos::Copy);
   if (count_ == 2) {
-    force.update(-yields(1), *membranes.load[1], yields(0));
+    force.update(-yields(1), *membranes.load(1), yields(0));
     return force;
   }
   const double top = std::max(reach, highest(*membranes.obstacle, *membranes.points()));
@@ -115,7 +111,7 @@ Vector MembraneMeasure::force_on_closed_gap(const MembraneOperator& membranes, d
           if (height(l, 0) > top) height(l, 0) = top;
         });
   }
-  membranes.matrix[0]->apply(psi, force, Teuchos::NO_TRANS, -membranes.factor[0], 1);
+  membranes.apply(0, psi, force, -1, 1);
   return force;
 }
 
@@ -151,7 +147,9 @@ std::array<double, 2> MembraneMeasure::rounded_forces(const MultiVector& u) cons
 
 double MembraneMeasure::round_off(const MultiVector& u) const {
   const std::array<double, 2> forces = rounded_forces(u);
-  return std::hypot(weight_[0] * forces[0], weight_[1] * forces[1]);
+  double sum = 0;
+  for (int alpha = 0; alpha < count_; ++alpha) sum = std::hypot(sum, weight(alpha) * forces[alpha]);
+  return sum;
 }
 
 double MembraneMeasure::round_off(int alpha, const MultiVector& u) const {
@@ -173,7 +171,7 @@ double MembraneMeasure::displacement(int alpha, const MultiVector& u) const {
   const double height = height_[alpha];
   double worst = 0;
   Kokkos::parallel_reduce(
-      "thixis::models::displacement", Range(0, algebra::local_size(*stiffness_.getMap())),
+      "thixis::models::displacement", Range(0, algebra::local_size(*stiffness_->getMap())),
       KOKKOS_LAMBDA(int l, double& largest) {
         const double moved = x(l, alpha) < height ? height - x(l, alpha) : x(l, alpha) - height;
         if (largest < moved) largest = moved;

@@ -2,6 +2,7 @@
 #include <functional>
 
 #include "membrane_operator.hpp"
+#include "thixis/contact/weights.hpp"
 
 namespace thixis::models {
 
@@ -31,11 +32,12 @@ class MembraneMeasure {
   /// where tension balances them. Collective.
   void set(const MembraneOperator& membranes, const Rest& rest, const Teuchos::RCP<algebra::Vector>* body = nullptr);
 
-  double weight(int alpha) const { return weight_[alpha]; }                   ///< w_alpha
-  double contact_weight() const { return std::max(weight_[0], weight_[1]); }  ///< w_C
-  double reference() const { return reference_; }                             ///< the size of what acts, as a residual
-  double on_gap() const { return on_gap_; }                                   ///< what would act on a gap that is closed everywhere
-  const algebra::Vector& stiffness() const { return stiffness_; }             ///< kappa, on points()
+  const contact::Weights& weights() const { return weights_; }
+  double weight(int alpha) const { return weights_.field[alpha]; }  ///< w_alpha
+  double contact_weight() const { return weights_.contact; }        ///< w_C = max w_alpha
+  double reference() const { return reference_; }                   ///< the size of what acts, as a residual
+  double on_gap() const { return on_gap_; }                         ///< what would act on a gap that is closed everywhere
+  const algebra::Vector& stiffness() const { return *stiffness_; }  ///< kappa, on points()
   const algebra::Vector& diagonal(int alpha) const { return *diagonal_[alpha]; }
 
   /// What rounding of S u leaves in |R|. Collective.
@@ -62,11 +64,12 @@ class MembraneMeasure {
   double carried(int alpha, const std::array<double, 2>& heights) const;
 
   int count_;
-  std::array<double, 2> weight_ = {1, 1}, height_ = {0, 0}, size_ = {0, 0};
+  contact::Weights weights_;
+  std::array<double, 2> height_ = {0, 0}, size_ = {0, 0};
   std::array<double, 2> share_ = {1, 0};  ///< theta_alpha of each membrane; m = 1: (1, 0)
   double reference_ = 0, on_gap_ = 0;
   Teuchos::RCP<algebra::Vector> diagonal_[2];
-  algebra::Vector stiffness_;
+  Teuchos::RCP<const algebra::Vector> stiffness_;
 };
 
 }  // namespace thixis::models

@@ -1,148 +1,150 @@
 #include "membrane_operator.hpp"
 
+#include <algorithm>
+
 namespace thixis::models {
 namespace {
 
 using algebra::MultiVector;
 using algebra::Vector;
+using contact::Small;
 using Range = Kokkos::RangePolicy<Vector::execution_space>;
 
-Layout layout(const Fields& fields) {
-  return {static_cast<int>(fields.u.getNumVectors()), static_cast<LocalIndex>(fields.lambda.getLocalLength())};
+/// The mean diagonal of S_alpha: a few mu_alpha.
+double mean_tension(const MembraneOperator& membranes, int alpha) {
+  Vector diagonal(membranes.map());
+  membranes.system.S.matrix[membranes.matrix_of(alpha)]->getLocalDiagCopy(diagonal);
+  return membranes.factor(alpha) * diagonal.meanValue();
+}
+
+/// 1 for the fields from `begin` to `end`, else 0.
+Small only(int begin, int end) {
+  Small c;
+  for (int alpha = begin; alpha < end; ++alpha) c(alpha, alpha) = 1;
+  return c;
+}
+
+/// Matrices of tensions that are constants: one, times each of them; else one for each membrane.
+contact::BlockOperator block_operator(const scene::MembraneScene& scene, const method::Space& space, const method::MethodParams& method) {
+  contact::BlockOperator S;
+  S.fields = scene.count;
+  auto cells = std::make_shared<contact::CellForms>(contact::CellForms{space.elements(), space.interior(), space.symmetric(), {}});
+  const bool condensed = method.condensed() && space.interior() > 0;
+  const auto add = [&](const scene::Field& tension, const Small& weight) {
+    S.matrix.push_back(space.stiffness(tension));
+    S.weight.push_back(weight);
+    if (condensed) cells->form.push_back(space.cell_form(tension));
+  };
+  if (std::all_of(scene.tension, scene.tension + scene.count, [](const auto& tension) { return tension->constant() != nullptr; })) {
+    Small mu;
+    for (int alpha = 0; alpha < scene.count; ++alpha) mu(alpha, alpha) = *scene.tension[alpha]->constant();
+    add(*scene::constant(1), mu);
+  } else {
+    for (int alpha = 0; alpha < scene.count; ++alpha) add(*scene.tension[alpha], only(alpha, alpha + 1));
+  }
+  if (condensed) S.cells = cells;
+  return S;
+}
+
+/// The first unknowns, with D; a gap moves both membranes as their shares of the tension let it.
+contact::Constraint constraint(const method::Space& space, const MembraneOperator& membranes) {
+  contact::Constraint constraint;
+  constraint.pairing = Teuchos::rcpFromRef(space.pairing());
+  constraint.points = constraint.pairing->getMap();
+  const Kokkos::View<LocalIndex*> node("thixis::models::node", algebra::local_size(*constraint.points));
+  Kokkos::parallel_for(
+      "thixis::models::node", Range(0, node.extent_int(0)), KOKKOS_LAMBDA(int p) { node(p) = p; });
+  constraint.node = node;
+  Small B;
+  B(0, 0) = 1;
+  if (membranes.count() == 2) B(1, 0) = -1;
+  const auto& theta = membranes.theta;
+  constraint.frames = contact::Frames({contact::make_frame(
+      membranes.count(), 1, B, membranes.count() == 1 ? std::vector<double>{1} : std::vector<double>{theta[0], theta[1]})});
+  return constraint;
+}
+
+/// -psi at the contact points.
+Teuchos::RCP<const MultiVector> offset(const Vector& obstacle, const algebra::MapPtr& points) {
+  auto offset = Teuchos::rcp(new MultiVector(points, 1));
+  const auto psi = obstacle.getLocalViewDevice(Tpetra::Access::ReadOnly);
+  const auto out = offset->getLocalViewDevice(Tpetra::Access::OverwriteAll);
+  Kokkos::parallel_for(
+      "thixis::models::offset", Range(0, out.extent_int(0)), KOKKOS_LAMBDA(int p) { out(p, 0) = -psi(p, 0); });
+  return offset;
 }
 
 }  // namespace
 
-algebra::MapPtr MembraneOperator::interlaced() const {
-  if (points()->getGlobalNumElements() == map()->getGlobalNumElements()) return algebra::interlaced(map(), count + 1);
-  return algebra::interlaced(map(), count + 1, algebra::local_size(*points()));
+void MembraneOperator::apply(int alpha, const Vector& u, Vector& y, double c, double d) const {
+  system.S.matrix[matrix_of(alpha)]->apply(u, y, Teuchos::NO_TRANS, c * factor(alpha), d);
 }
-
-Layout layout(const MembraneOperator& membranes) { return {membranes.count, algebra::local_size(*membranes.points())}; }
 
 MembraneOperator membrane_operator(const scene::MembraneScene& scene, const method::Space& space, const method::MethodParams& method,
                                    const method::Coefficients* lift, const Teuchos::RCP<Vector>* body) {
   MembraneOperator membranes;
-  membranes.count = scene.count;
-  membranes.pairing = Teuchos::rcpFromRef(space.pairing());
-  std::array<scene::FieldPtr, 2> tension = {scene.tension[0], scene.tension[1]};  // that of the matrices
-  bool constant = true;
-  for (int alpha = 0; alpha < scene.count; ++alpha) constant = constant && scene.tension[alpha]->constant();
-  for (int alpha = 0; alpha < scene.count && constant; ++alpha) {
-    membranes.factor[alpha] = *scene.tension[alpha]->constant();
-    tension[alpha] = scene::constant(1);
-  }
-  if (method.condensed() && space.interior() > 0)
-    membranes.condensed = CellForms{space.elements(), space.interior(), space.symmetric(), {}};
+  membranes.system.S = block_operator(scene, space, method);
+  membranes.system.load = Teuchos::rcp(new MultiVector(space.map(), scene.count));
   for (int alpha = 0; alpha < scene.count; ++alpha) {
-    auto& condensed = membranes.condensed;
-    if (constant && alpha > 0) {
-      membranes.matrix[alpha] = membranes.matrix[0];
-      if (condensed) condensed->form[alpha] = condensed->form[0];
-    } else {
-      membranes.matrix[alpha] = space.stiffness(*tension[alpha]);
-      if (condensed) condensed->form[alpha] = space.cell_form(*tension[alpha]);
-    }
     // what the Dirichlet data exert on the unknowns moves to the right
     Vector held(space.map());
     space.forces(*scene.tension[alpha], lift[alpha], held);
-    membranes.load[alpha] = Teuchos::rcp(new Vector(*body[alpha], Teuchos::Copy));
-    membranes.load[alpha]->update(-1, held, 1);
-    Vector diagonal(space.map());
-    membranes.matrix[alpha]->getLocalDiagCopy(diagonal);
-    membranes.tension[alpha] = membranes.factor[alpha] * diagonal.meanValue();
+    membranes.system.load->getVectorNonConst(alpha)->update(1, *body[alpha], -1, held, 0);
   }
+  if (scene.count == 2) {
+    membranes.theta = {0.5, 0.5};
+    if (space.map()->getGlobalNumElements() > 0) {
+      const double upper = mean_tension(membranes, 0), lower = mean_tension(membranes, 1);
+      membranes.theta = {upper / (upper + lower), lower / (upper + lower)};
+    }
+  }
+  membranes.system.constraint = constraint(space, membranes);
   if (scene.count == 1) {
     auto psi = Teuchos::rcp(new Vector(space.map()));
     space.interpolate_obstacle(*scene.obstacle, *psi);
     membranes.obstacle = psi;
-    membranes.theta = {0, 1};
-  } else if (space.map()->getGlobalNumElements() > 0) {
-    for (int alpha = 0; alpha < 2; ++alpha)
-      membranes.theta[alpha] = membranes.tension[alpha] / (membranes.tension[0] + membranes.tension[1]);
+    membranes.system.constraint.offset = offset(*psi, membranes.points());
   }
   return membranes;
 }
 
-Inertia::Inertia(const method::Space& space, MembraneOperator& membranes)
-    : space_(space),
-      count_(membranes.shared() && membranes.factor[0] == membranes.factor[1] ? 1 : membranes.count),
-      factor_(membranes.factor),
-      stiffness_(membranes.matrix),
-      mass_(space.mass()) {
-  if (membranes.condensed) form_ = membranes.condensed->form;
-  for (int alpha = 0; alpha < count_; ++alpha) {
-    sum_[alpha] = Teuchos::rcp(new algebra::Matrix(space.graph()));
-    sum_[alpha]->fillComplete();
+Inertia::Inertia(const method::Space& space, MembraneOperator& membranes) : space_(space), mass_(space.mass()) {
+  contact::BlockOperator& S = membranes.system.S;
+  const bool one = S.matrix.size() == 1 && membranes.factor(0) == membranes.factor(membranes.count() - 1);
+  const int different = one ? 1 : membranes.count();
+  for (int k = 0; k < different; ++k) {
+    factor_.push_back(membranes.factor(k));
+    stiffness_.push_back(S.matrix[membranes.matrix_of(k)]);
+    if (S.cells) form_.push_back(S.cells->form[membranes.matrix_of(k)]);
+    sum_.push_back(Teuchos::rcp(new algebra::Matrix(space.graph())));
+    sum_.back()->fillComplete();
   }
-  for (int alpha = 0; alpha < membranes.count; ++alpha) {
-    membranes.matrix[alpha] = sum_[alpha % count_];
-    membranes.factor[alpha] = 1;
-  }
+  S.matrix.assign(sum_.begin(), sum_.end());
+  S.weight.clear();
+  for (int k = 0; k < different; ++k) S.weight.push_back(one ? only(0, membranes.count()) : only(k, k + 1));
 }
 
 void Inertia::set(double weight, MembraneOperator& membranes) {
   const auto M = mass_->getLocalMatrixDevice().values;
-  for (int alpha = 0; alpha < count_; ++alpha) {
-    const double factor = factor_[alpha];
-    const auto S = stiffness_[alpha]->getLocalMatrixDevice().values, sum = sum_[alpha]->getLocalMatrixDevice().values;
+  for (std::size_t k = 0; k < sum_.size(); ++k) {
+    const double factor = factor_[k];
+    const auto S = stiffness_[k]->getLocalMatrixDevice().values, sum = sum_[k]->getLocalMatrixDevice().values;
     Kokkos::parallel_for(
-        "thixis::models::inertia", Kokkos::RangePolicy<Vector::execution_space>(0, sum.extent(0)),
-        KOKKOS_LAMBDA(std::size_t k) { sum(k) = factor * S(k) + weight * M(k); });
+        "thixis::models::inertia", Range(0, sum.extent(0)), KOKKOS_LAMBDA(std::size_t e) { sum(e) = factor * S(e) + weight * M(e); });
   }
-  if (!membranes.condensed) return;
-  for (int alpha = 0; alpha < membranes.count; ++alpha)
-    membranes.condensed->form[alpha] =
-        alpha < count_ ? space_.with_mass(form_[alpha], factor_[alpha], weight) : membranes.condensed->form[0];
+  auto& cells = membranes.system.S.cells;
+  if (!cells) return;
+  auto with_mass = std::make_shared<contact::CellForms>(*cells);
+  with_mass->form.clear();
+  for (std::size_t k = 0; k < form_.size(); ++k) with_mass->form.push_back(space_.with_mass(form_[k], factor_[k], weight));
+  cells = with_mass;
 }
 
-Fields::Fields(const MembraneOperator& membranes) : u(membranes.map(), membranes.count), lambda(membranes.points()) {}
+Fields::Fields(const MembraneOperator& membranes, Vector& X)
+    : u(contact::fields_nonconst(membranes.system, X)), lambda(*contact::multipliers_nonconst(membranes.system, X).getVectorNonConst(0)) {}
 
-Fields::Fields(const MembraneOperator& membranes, const Vector& X) : Fields(membranes) { split(X, *this); }
-
-void split(const Vector& X, Fields& fields) {
-  const Layout at = layout(fields);
-  const auto x = X.getLocalViewDevice(Tpetra::Access::ReadOnly);
-  const auto u = fields.u.getLocalViewDevice(Tpetra::Access::OverwriteAll);
-  const auto lambda = fields.lambda.getLocalViewDevice(Tpetra::Access::OverwriteAll);
-  Kokkos::parallel_for(
-      "thixis::models::split", Range(0, u.extent_int(0)), KOKKOS_LAMBDA(int l) {
-        for (int f = 0; f < at.membranes; ++f) u(l, f) = x(at(l, f), 0);
-        if (l < at.points) lambda(l, 0) = x(at(l, at.membranes), 0);
-      });
-}
-
-void join(const Fields& fields, Vector& X) {
-  const Layout at = layout(fields);
-  const auto u = fields.u.getLocalViewDevice(Tpetra::Access::ReadOnly);
-  const auto lambda = fields.lambda.getLocalViewDevice(Tpetra::Access::ReadOnly);
-  const auto x = X.getLocalViewDevice(Tpetra::Access::OverwriteAll);
-  Kokkos::parallel_for(
-      "thixis::models::join", Range(0, u.extent_int(0)), KOKKOS_LAMBDA(int l) {
-        for (int f = 0; f < at.membranes; ++f) x(at(l, f), 0) = u(l, f);
-        if (l < at.points) x(at(l, at.membranes), 0) = lambda(l, 0);
-      });
-}
-
-void split(const Vector& x, MultiVector& columns) {
-  const auto in = x.getLocalViewDevice(Tpetra::Access::ReadOnly);
-  const auto out = columns.getLocalViewDevice(Tpetra::Access::OverwriteAll);
-  const int width = out.extent_int(1);
-  Kokkos::parallel_for(
-      "thixis::models::split_columns", Range(0, out.extent_int(0)), KOKKOS_LAMBDA(int l) {
-        for (int f = 0; f < width; ++f) out(l, f) = in(width * l + f, 0);
-      });
-}
-
-void join(const MultiVector& columns, Vector& x) {
-  const auto in = columns.getLocalViewDevice(Tpetra::Access::ReadOnly);
-  const auto out = x.getLocalViewDevice(Tpetra::Access::OverwriteAll);
-  const int width = in.extent_int(1);
-  Kokkos::parallel_for(
-      "thixis::models::join_columns", Range(0, in.extent_int(0)), KOKKOS_LAMBDA(int l) {
-        for (int f = 0; f < width; ++f) out(width * l + f, 0) = in(l, f);
-      });
-}
+Fields::Fields(const MembraneOperator& membranes, const Vector& X)
+    : u(contact::fields(membranes.system, X)), lambda(*contact::multipliers(membranes.system, X).getVectorNonConst(0)) {}
 
 method::Coefficients difference(const method::Coefficients& u, const method::Coefficients& v) {
   const method::Coefficients w("thixis::models::difference", u.extent(0));
@@ -151,18 +153,6 @@ method::Coefficients difference(const method::Coefficients& u, const method::Coe
   return w;
 }
 
-void gap(const MembraneOperator& membranes, const MultiVector& u, Vector& K) {
-  const auto fields = u.getLocalViewDevice(Tpetra::Access::ReadOnly);
-  const auto out = K.getLocalViewDevice(Tpetra::Access::OverwriteAll);
-  const Range points(0, out.extent_int(0));
-  if (membranes.count == 2) {
-    Kokkos::parallel_for(
-        "thixis::models::gap", points, KOKKOS_LAMBDA(int l) { out(l, 0) = fields(l, 0) - fields(l, 1); });
-  } else {
-    const auto psi = membranes.obstacle->getLocalViewDevice(Tpetra::Access::ReadOnly);
-    Kokkos::parallel_for(
-        "thixis::models::gap_over_obstacle", points, KOKKOS_LAMBDA(int l) { out(l, 0) = fields(l, 0) - psi(l, 0); });
-  }
-}
+void gap(const MembraneOperator& membranes, const MultiVector& u, Vector& K) { contact::gap(membranes.system, u, K); }
 
 }  // namespace thixis::models

@@ -1,12 +1,8 @@
 #include "membrane_problem.hpp"
 
-#include <cmath>
+#include <algorithm>
 
-#include "full_system.hpp"
-#include "projected_jacobi.hpp"
-#include "reduced_system.hpp"
 #include "thixis/complementarity/active_set.hpp"
-#include "thixis/core/timer.hpp"
 
 namespace thixis::models {
 namespace {
@@ -14,15 +10,6 @@ namespace {
 using algebra::MultiVector;
 using algebra::Vector;
 using Range = Kokkos::RangePolicy<Vector::execution_space>;
-
-/// Interior unknowns of all cells. Collective.
-GlobalIndex count_interior(const CellForms& forms, const algebra::Map& rows) {
-  const auto unknowns = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), forms.elements);
-  GlobalIndex count = 0;
-  for (std::size_t e = 0; e < unknowns.extent(0); ++e)
-    for (int i = 0; i < forms.interior; ++i) count += unknowns(e, i) >= 0 && unknowns(e, i) < algebra::local_size(rows);
-  return algebra::comm_of(rows).sum(count);
-}
 
 /// u_1 = u_2 at their mean, or u_1 = psi.
 struct CloseGap {
@@ -32,7 +19,7 @@ struct CloseGap {
 
   explicit CloseGap(const MembraneOperator& membranes, MultiVector& fields)
       : u(fields.getLocalViewDevice(Tpetra::Access::ReadWrite)), theta1(membranes.theta[0]), theta2(membranes.theta[1]) {
-    if (membranes.count == 1) psi = membranes.obstacle->getLocalViewDevice(Tpetra::Access::ReadOnly);
+    if (membranes.count() == 1) psi = membranes.obstacle->getLocalViewDevice(Tpetra::Access::ReadOnly);
   }
   KOKKOS_FUNCTION double gap(int l) const { return u.extent(1) == 1 ? u(l, 0) - psi(l, 0) : u(l, 0) - u(l, 1); }
   KOKKOS_FUNCTION void operator()(int l) const {
@@ -51,100 +38,42 @@ struct CloseGap {
 
 MembraneProblem::MembraneProblem(MembraneOperator membranes, const algebra::LinearParams& params,
                                  const Teuchos::RCP<const MultiVector>& coordinates)
-    : membranes_(std::move(membranes)), measure_(membranes_), params_(params), coordinates_(coordinates), map_(membranes_.interlaced()) {
-  if (membranes_.condensed) interior_ = count_interior(*membranes_.condensed, *membranes_.map());
+    : MembraneProblem(std::make_shared<MembraneOperator>(std::move(membranes)), params, coordinates) {}
+
+MembraneProblem::MembraneProblem(const std::shared_ptr<MembraneOperator>& membranes, const algebra::LinearParams& params,
+                                 const Teuchos::RCP<const MultiVector>& coordinates)
+    : contact::Problem({membranes, &membranes->system}, params, coordinates), membranes_(membranes), measure_(*membranes) {
+  measure_by(measure_.weights(), measure_.reference());
 }
 
-void MembraneProblem::equations(const Vector& X, Vector& R) const {
-  const Fields x(membranes_, X);
-  Fields r(membranes_);
-  for (int alpha = 0; alpha < membranes_.count; ++alpha) {
-    const auto row = r.u.getVectorNonConst(alpha);
-    membranes_.matrix[alpha]->apply(*x.u.getVector(alpha), *row, Teuchos::NO_TRANS, membranes_.factor[alpha], 0);
-    row->update(-1, *membranes_.load[alpha], 1);
-    const double sigma = alpha == 0 ? 1 : -1;
-    const auto D = membranes_.pairing->getLocalViewDevice(Tpetra::Access::ReadOnly);
-    const auto lambda = x.lambda.getLocalViewDevice(Tpetra::Access::ReadOnly);
-    const auto out = row->getLocalViewDevice(Tpetra::Access::ReadWrite);
-    Kokkos::parallel_for(
-        "thixis::models::pressure", Range(0, lambda.extent_int(0)), KOKKOS_LAMBDA(int l) { out(l, 0) -= sigma * D(l, 0) * lambda(l, 0); });
-  }
-  join(r, R);
+void MembraneProblem::measure_from(const Rest& rest, const Teuchos::RCP<Vector>* body) {
+  measure_.set(*membranes_, rest, body);
+  measure_by(measure_.weights(), measure_.reference());
 }
 
-void MembraneProblem::arguments(const Vector& X, Vector& K, Vector& G) const {
-  const Fields x(membranes_, X);
-  gap(membranes_, x.u, K);
-  G.assign(x.lambda);
+void MembraneProblem::set_inertia(const method::Space& space, double weight) {
+  if (!inertia_) inertia_ = std::make_unique<Inertia>(space, *membranes_);
+  inertia_->set(weight, *membranes_);
+  measure_ = MembraneMeasure(*membranes_);
+  measure_by(measure_.weights(), measure_.reference());
+  renew();
 }
 
-void MembraneProblem::scaling(Vector& s) const {
-  const auto D = membranes_.pairing->getLocalViewDevice(Tpetra::Access::ReadOnly);
-  const auto kappa = measure_.stiffness().getLocalViewDevice(Tpetra::Access::ReadOnly);
-  const auto out = s.getLocalViewDevice(Tpetra::Access::OverwriteAll);
-  Kokkos::parallel_for(
-      "thixis::models::scaling", Range(0, out.extent_int(0)), KOKKOS_LAMBDA(int l) { out(l, 0) = D(l, 0) / kappa(l, 0); });
-}
-
-bool MembraneProblem::weights(Vector& w) const {
-  Fields rows(membranes_);
-  for (int alpha = 0; alpha < membranes_.count; ++alpha) rows.u.getVectorNonConst(alpha)->putScalar(measure_.weight(alpha));
-  rows.lambda.update(measure_.contact_weight(), measure_.stiffness(), 0);
-  join(rows, w);
-  return true;
-}
-
-double MembraneProblem::noise(const Vector& X) const { return measure_.round_off(Fields(membranes_, X).u); }
+double MembraneProblem::noise(const Vector& X) const { return measure_.round_off(Fields(*membranes_, X).u); }
 
 /// Beside what contact forces open at one point: the way of the membranes, since gaps to what is out of reach say nothing.
 double MembraneProblem::gap_size(const Vector& X, const Vector& K, const Vector& G, const Vector& s) const {
   const Vector touching(K.getMap());
-  return std::max(measure_.displacement(Fields(membranes_, X).u), complementarity::largest_argument(touching, G, s));
+  return std::max(measure_.displacement(Fields(*membranes_, X).u), complementarity::largest_argument(touching, G, s));
 }
 
-void MembraneProblem::insert(const Vector& C, Vector& R) const {
-  const Layout at = layout(membranes_);
-  const auto c = C.getLocalViewDevice(Tpetra::Access::ReadOnly);
-  const auto r = R.getLocalViewDevice(Tpetra::Access::ReadWrite);
-  Kokkos::parallel_for(
-      "thixis::models::insert", Range(0, c.extent_int(0)), KOKKOS_LAMBDA(int l) { r(at(l, at.membranes), 0) = c(l, 0); });
-}
-
-void MembraneProblem::linearize(const Vector&, const Vector& a, const Vector& b) {
-  if (!system_) {
-    const core::Region region("assembly");
-    const bool full = params_.form == algebra::SystemForm::full && !membranes_.condensed;
-    system_ = full ? make_full_system(membranes_, measure_, params_, map_, coordinates_)
-                   : make_reduced_system(membranes_, measure_, params_, coordinates_);
-  }
-  system_->linearize(a, b);
-}
-
-void MembraneProblem::set_inertia(const method::Space& space, double weight) {
-  if (!inertia_) inertia_ = std::make_unique<Inertia>(space, membranes_);
-  inertia_->set(weight, membranes_);
-  measure_ = MembraneMeasure(membranes_);
-  smoother_.reset();
-  if (system_) system_->renew();
-}
-
-algebra::LinearReport MembraneProblem::solve(const Vector& R, Vector& dX, const algebra::LinearStop& stop) {
-  return system_->solve(R, dX, stop);
-}
-
-void MembraneProblem::relax(Vector& X, int sweeps) const {
-  Fields x(membranes_, X);
-  if (!smoother_) smoother_ = std::make_unique<ProjectedJacobi>(membranes_);
-  (*smoother_)(sweeps, x);
-  join(x, X);
-}
-
-void MembraneProblem::settle(Fields& x) const {
-  Vector scale(membranes_.points());
+void MembraneProblem::settle(Vector& X) const {
+  Fields x(*membranes_, X);
+  Vector scale(points());
   scaling(scale);
   const auto s = std::as_const(scale).getLocalViewDevice(Tpetra::Access::ReadOnly);
   const auto lambda = x.lambda.getLocalViewDevice(Tpetra::Access::ReadWrite);
-  const CloseGap close(membranes_, x.u);
+  const CloseGap close(*membranes_, x.u);
   Kokkos::parallel_for(
       "thixis::models::settle", Range(0, lambda.extent_int(0)), KOKKOS_LAMBDA(int l) {
         if (close.gap(l) > s(l, 0) * lambda(l, 0)) lambda(l, 0) = 0;
@@ -152,15 +81,16 @@ void MembraneProblem::settle(Fields& x) const {
       });
 }
 
-void MembraneProblem::make_admissible(const Fields& before, Fields& x) const {
-  Vector scale(membranes_.points()), gap_before(membranes_.points());
+void MembraneProblem::make_admissible(const Vector& before, Vector& X) const {
+  Fields x(*membranes_, X);
+  Vector scale(points()), gap_before(points()), multiplier_before(points());
   scaling(scale);
-  gap(membranes_, before.u, gap_before);
+  arguments(before, gap_before, multiplier_before);
   const auto s = std::as_const(scale).getLocalViewDevice(Tpetra::Access::ReadOnly);
   const auto K = std::as_const(gap_before).getLocalViewDevice(Tpetra::Access::ReadOnly);
-  const auto G = before.lambda.getLocalViewDevice(Tpetra::Access::ReadOnly);
+  const auto G = std::as_const(multiplier_before).getLocalViewDevice(Tpetra::Access::ReadOnly);
   const auto lambda = x.lambda.getLocalViewDevice(Tpetra::Access::ReadWrite);
-  const CloseGap close(membranes_, x.u);
+  const CloseGap close(*membranes_, x.u);
   Kokkos::parallel_for(
       "thixis::models::make_admissible", Range(0, lambda.extent_int(0)), KOKKOS_LAMBDA(int l) {
         const bool stays_free = K(l, 0) > s(l, 0) * G(l, 0) && close.gap(l) > -K(l, 0);
@@ -171,23 +101,14 @@ void MembraneProblem::make_admissible(const Fields& before, Fields& x) const {
       });
 }
 
-void MembraneProblem::make_complementary(Fields& x) const {
+void MembraneProblem::make_complementary(Vector& X) const {
+  Fields x(*membranes_, X);
   const auto lambda = std::as_const(x.lambda).getLocalViewDevice(Tpetra::Access::ReadOnly);
-  const CloseGap close(membranes_, x.u);
+  const CloseGap close(*membranes_, x.u);
   Kokkos::parallel_for(
       "thixis::models::make_complementary", Range(0, lambda.extent_int(0)), KOKKOS_LAMBDA(int l) {
         if (lambda(l, 0) > 0) close(l);
       });
 }
-
-GlobalIndex MembraneProblem::unknowns() const {
-  return static_cast<GlobalIndex>(membranes_.count * membranes_.map()->getGlobalNumElements() +
-                                  membranes_.points()->getGlobalNumElements());
-}
-GlobalIndex MembraneProblem::rows() const {
-  if (params_.form == algebra::SystemForm::full && !membranes_.condensed) return unknowns();
-  return membranes_.count * (static_cast<GlobalIndex>(membranes_.map()->getGlobalNumElements()) - interior_);
-}
-GlobalIndex MembraneProblem::nonzeros() const { return system_ ? system_->nonzeros() : 0; }
 
 }  // namespace thixis::models

@@ -38,20 +38,21 @@ class MembraneDiscretization final : public Discretization {
   }
 
   Teuchos::RCP<Vector> cold_start() const override {
-    Fields x = on_mesh_->fields();
+    const auto X = on_mesh_->zero();
+    Fields x = on_mesh_->fields(*X);
     for (int alpha = 0; alpha < scene_.count; ++alpha)
       if (initial_[alpha]) space().interpolate(*initial_[alpha], 0, *x.u.getVectorNonConst(alpha));
     if (initial_[2]) space().interpolate_multiplier(*initial_[2], 0, x.lambda);
     on_mesh_->start_from(x.u);
-    return on_mesh_->joined(x);
+    return X;
   }
 
   Teuchos::RCP<Vector> nested_start(const Discretization& coarse_level, const Vector& coarse_X) const override {
     const auto& coarse = dynamic_cast<const MembraneDiscretization&>(coarse_level);
-    Fields x = on_mesh_->from_coarse(*coarse.on_mesh_, coarse_X);
+    auto X = on_mesh_->from_coarse(*coarse.on_mesh_, coarse_X);
     // moments come with noise of both signs
-    if (space().nodal_multiplier()) on_mesh_->problem().make_complementary(x);
-    return on_mesh_->joined(x);
+    if (space().nodal_multiplier()) on_mesh_->problem().make_complementary(*X);
+    return X;
   }
 
   std::vector<output::CheckpointBlock> save(const Vector& X) const override { return on_mesh_->save(X); }

@@ -63,9 +63,10 @@ class ParabolicEvolution final : public Evolution {
 
   Teuchos::RCP<Vector> initial() override {
     on_mesh_->move_to(0);
-    Fields x = on_mesh_->fields();
+    auto X = on_mesh_->zero();
+    Fields x = on_mesh_->fields(*X);
     for (int alpha = 0; alpha < 2; ++alpha) space().interpolate(*scene_.initial[alpha], 0, *x.u.getVectorNonConst(alpha));
-    return on_mesh_->joined(x);
+    return X;
   }
 
   void check(const std::vector<double>& times) const override {
@@ -89,11 +90,11 @@ class ParabolicEvolution final : public Evolution {
     }
     Vector part(space().map());
     for (int alpha = 0; alpha < 2; ++alpha) {
-      Vector& F = *problem.membranes().load[alpha];
+      const auto F = problem.membranes().system.load->getVectorNonConst(alpha);
       space().apply_mass(combination(weight_, before_.u[alpha], -weight_, on_mesh_->lift(alpha)), part);
-      F.update(1, *on_mesh_->body()[alpha], 1, part, 0);
+      F->update(1, *on_mesh_->body()[alpha], 1, part, 0);
       space().forces(*scene_.tension[alpha], on_mesh_->lift(alpha), part);
-      F.update(-1, part, 1);
+      F->update(-1, part, 1);
     }
     on_mesh_->measure_from(on_mesh_->fields(before).u);
     X_before_ = Teuchos::rcp(new Vector(before, Teuchos::Copy));
@@ -110,9 +111,7 @@ class ParabolicEvolution final : public Evolution {
     if (before_last_.is_null()) return false;
     const double ratio = step_.length() / last_length_;
     X.update(1 + ratio, *X_before_, -ratio, *before_last_, 0);
-    Fields x = on_mesh_->fields(X);
-    on_mesh_->problem().make_admissible(on_mesh_->fields(*X_before_), x);
-    join(x, X);
+    on_mesh_->problem().make_admissible(*X_before_, X);
     return true;
   }
 
@@ -285,7 +284,7 @@ class ParabolicEvolution final : public Evolution {
     go_to_finest();
     on_mesh_->move_to(t);
     restored_bound_.clear();
-    const auto fine_X = on_mesh_->joined(on_mesh_->from_coarse(*on_coarse, X));
+    const auto fine_X = on_mesh_->from_coarse(*on_coarse, X);
     bounded_ = bounded_ && coarse_bound;
     if (bounded_) {
       bound_ = make_bound(t);

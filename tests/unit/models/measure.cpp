@@ -45,7 +45,7 @@ class Measure : public ::testing::Test {
   }
   /// All membranes at one height.
   MultiVector at(const MembraneOperator& membranes, double height) const {
-    MultiVector u(membranes.map(), membranes.count);
+    MultiVector u(membranes.map(), membranes.count());
     u.putScalar(height);
     return u;
   }
@@ -71,10 +71,10 @@ TEST_F(Measure, what_drives_the_gap_reaches_both_membranes) {
   for (const auto& [on_upper, on_lower] :
        {std::pair(force(3), force(1)), std::pair(force(-2), force(0)), std::pair(force(0), force(-1)), std::pair(force(1), force(1))}) {
     const MembraneOperator two = membranes({1, 3}, {on_upper, on_lower}, zero_);
-    Vector on_gap(*two.load[0], Teuchos::Copy);
-    on_gap.update(-0.25, *two.load[1], 0.75);
+    Vector on_gap(*two.load(0), Teuchos::Copy);
+    on_gap.update(-0.25, *two.load(1), 0.75);
     double T[2];
-    for (int alpha = 0; alpha < 2; ++alpha) T[alpha] = std::max(two.load[alpha]->norm2(), on_gap.norm2());
+    for (int alpha = 0; alpha < 2; ++alpha) T[alpha] = std::max(two.load(alpha)->norm2(), on_gap.norm2());
     const MembraneMeasure measure = measured(two);
     EXPECT_NEAR(measure.reference(), std::max(T[0], T[1]), 1e-12);
     for (int alpha = 0; alpha < 2; ++alpha) EXPECT_NEAR(measure.weight(alpha) * T[alpha], measure.reference(), 1e-12) << alpha;
@@ -137,7 +137,7 @@ TEST_F(Measure, an_obstacle_counts_by_what_it_can_exert_and_only_within_reach) {
   const FieldPtr bump = scene::formula([](double x, double y) { return 1 - 8 * (std::pow(x - 0.5, 2) + std::pow(y - 0.5, 2)); });
   const MembraneOperator over = membranes({2, 0}, {zero_, nullptr}, zero_, bump);
   Vector pushed(over.map());
-  over.matrix[0]->apply(*over.obstacle, pushed, Teuchos::NO_TRANS, 2, 0);
+  over.apply(0, *over.obstacle, pushed);
   double squares = 0;
   {
     const auto values = algebra::host_view(pushed);
@@ -149,7 +149,7 @@ TEST_F(Measure, an_obstacle_counts_by_what_it_can_exert_and_only_within_reach) {
 
   const FieldPtr none = scene::formula([](double x, double y) { return -1e10 * (1 + x * x + y); });
   const MembraneOperator free = membranes({2, 0}, {force(1), nullptr}, zero_, none);
-  EXPECT_EQ(measured(free, within(0)).reference(), free.load[0]->norm2());
+  EXPECT_EQ(measured(free, within(0)).reference(), free.load(0)->norm2());
   const MembraneOperator pressed = membranes({2, 0}, {force(-1), nullptr}, zero_, none);
   EXPECT_LT(measured(pressed, within(-1)).reference(), 1e3) << "and not 1e10";
 }
