@@ -48,26 +48,6 @@ MultiVector multipliers_nonconst(const System& system, Vector& X) {
 MultiVector gaps(const System& system, const Vector& K) { return columns_of(K, system.points(), 0, system.gaps()); }
 MultiVector gaps_nonconst(const System& system, Vector& K) { return columns_of(K, system.points(), 0, system.gaps()); }
 
-void interlace(const MultiVector& columns, Vector& x) {
-  const auto in = columns.getLocalViewDevice(Tpetra::Access::ReadOnly);
-  const auto out = x.getLocalViewDevice(Tpetra::Access::OverwriteAll);
-  const int width = in.extent_int(1);
-  Kokkos::parallel_for(
-      "thixis::contact::interlace", Range(0, in.extent_int(0)), KOKKOS_LAMBDA(int l) {
-        for (int f = 0; f < width; ++f) out(width * l + f, 0) = in(l, f);
-      });
-}
-
-void separate(const Vector& x, MultiVector& columns) {
-  const auto in = x.getLocalViewDevice(Tpetra::Access::ReadOnly);
-  const auto out = columns.getLocalViewDevice(Tpetra::Access::OverwriteAll);
-  const int width = out.extent_int(1);
-  Kokkos::parallel_for(
-      "thixis::contact::separate", Range(0, out.extent_int(0)), KOKKOS_LAMBDA(int l) {
-        for (int f = 0; f < width; ++f) out(l, f) = in(width * l + f, 0);
-      });
-}
-
 void gap(const System& system, const MultiVector& u, MultiVector& K) {
   const auto of_fields = u.getLocalViewDevice(Tpetra::Access::ReadOnly);
   const auto out = K.getLocalViewDevice(Tpetra::Access::OverwriteAll);

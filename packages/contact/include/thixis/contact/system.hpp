@@ -51,10 +51,6 @@ algebra::MultiVector multipliers_nonconst(const System& system, algebra::Vector&
 algebra::MultiVector gaps(const System& system, const algebra::Vector& K);
 algebra::MultiVector gaps_nonconst(const System& system, algebra::Vector& K);
 
-/// Columns of fields -> interlaced by node, and back: for solvers whose patterns want the fields of a node together.
-void interlace(const algebra::MultiVector& columns, algebra::Vector& x);
-void separate(const algebra::Vector& x, algebra::MultiVector& columns);
-
 /// K = k0 + Bᵀ u, a column for each gap.
 void gap(const System& system, const algebra::MultiVector& u, algebra::MultiVector& K);
 /// y <- y - B D lambda.
