@@ -173,12 +173,9 @@ class FullSystem final : public LinearizedSystem {
 
   Places make_places() const {
     const LocalIndex columns = algebra::local_columns(*system_.S.matrix[0]), rows = nodes();
-    const Kokkos::View<LocalIndex*> first("thixis::contact::first", columns + 1), point("thixis::contact::point", rows);
-    Kokkos::deep_copy(point, -1);
-    const auto node = system_.constraint.node;
+    const Kokkos::View<LocalIndex*> first("thixis::contact::first", columns + 1);
+    const Indices point = points_of_nodes(system_);
     const int fields = system_.fields(), gaps = system_.gaps();
-    Kokkos::parallel_for(
-        "thixis::contact::points", Range(0, node.extent_int(0)), KOKKOS_LAMBDA(int p) { point(node(p)) = p; });
     // of ghosts, the multipliers stand in no row of this rank
     Kokkos::parallel_scan(
         "thixis::contact::places", Range(0, columns + 1), KOKKOS_LAMBDA(int l, LocalIndex& sum, bool final) {

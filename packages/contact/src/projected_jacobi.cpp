@@ -152,15 +152,6 @@ struct Sweep {
   }
 };
 
-Kokkos::View<const LocalIndex*> points_of_nodes(const System& system) {
-  const Kokkos::View<LocalIndex*> point("thixis::contact::point", algebra::local_size(*system.map()));
-  Kokkos::deep_copy(point, -1);
-  const auto node = system.constraint.node;
-  Kokkos::parallel_for(
-      "thixis::contact::points", Range(0, node.extent_int(0)), KOKKOS_LAMBDA(int p) { point(node(p)) = p; });
-  return point;
-}
-
 }  // namespace
 
 ProjectedJacobi::ProjectedJacobi(const System& system) : system_(system) {

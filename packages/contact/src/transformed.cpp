@@ -114,4 +114,13 @@ void apply_frames(const System& system, const MultiVector& y, MultiVector& u) {
       });
 }
 
+Kokkos::View<const LocalIndex*> points_of_nodes(const System& system) {
+  const Kokkos::View<LocalIndex*> point("thixis::contact::point", algebra::local_size(*system.map()));
+  Kokkos::deep_copy(point, -1);
+  const auto node = system.constraint.node;
+  Kokkos::parallel_for(
+      "thixis::contact::points", Range(0, node.extent_int(0)), KOKKOS_LAMBDA(int p) { point(node(p)) = p; });
+  return point;
+}
+
 }  // namespace thixis::contact

@@ -65,4 +65,7 @@ void apply_frames(const System& system, const algebra::MultiVector& y, algebra::
 
 Part all_coordinates(int fields);
 
+/// The contact point at each node of this rank, or -1.
+Kokkos::View<const LocalIndex*> points_of_nodes(const System& system);
+
 }  // namespace thixis::contact
