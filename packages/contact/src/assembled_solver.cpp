@@ -30,20 +30,10 @@ struct Pattern {
 template <class View>
 struct Fill {
   TransformedBlocks blocks;
-  int means;
+  GapsOfPart<View> gaps;
   LocalMatrix S[most_matrices];
-  View contact;  ///< at columns
-  View penalty;
   LocalMatrix A;  ///< out, overwritten
 
-  KOKKOS_FUNCTION bool known(LocalIndex node, int i) const {
-    const int gap = blocks.part.gap(i, means);
-    return gap >= 0 && contact(node, gap) > 0;
-  }
-  KOKKOS_FUNCTION double added(LocalIndex node, int i) const {
-    const int gap = blocks.part.gap(i, means);
-    return gap >= 0 ? blocks.part.stretch[i] * blocks.part.stretch[i] * penalty(node, gap) : 0;
-  }
   KOKKOS_FUNCTION void operator()(LocalIndex l) const {
     const auto& graph = S[0].graph;
     const std::size_t begin = graph.row_map(l), end = graph.row_map(l + 1);
@@ -57,8 +47,8 @@ struct Fill {
         for (int j = 0; j < size; ++j, ++to) {
           double value = 0;
           for (int k = 0; k < blocks.matrices; ++k) value += c[k](i, j) * S[k].values(e);
-          if (m == l && i == j) A.values(to) = value + added(l, i);
-          else A.values(to) = known(l, i) || known(m, j) ? 0 : value;
+          if (m == l && i == j) A.values(to) = value + gaps.added(l, i);
+          else A.values(to) = gaps.known(l, i) || gaps.known(m, j) ? 0 : value;
         }
       }
     }
@@ -111,10 +101,10 @@ class AssembledSolver final : public ConstrainedSolver {
   void set_matrix(const Part& part, const MultiVector& contact, const MultiVector& penalty) override {
     const MultiVector contact_columns = at_columns(system_, contact);
     const auto known = contact_columns.getLocalViewDevice(Tpetra::Access::ReadOnly);
-    Fill<std::decay_t<decltype(known)>> fill{TransformedBlocks(system_, part), system_.fields() - system_.gaps()};
+    Fill<std::decay_t<decltype(known)>> fill{TransformedBlocks(system_, part), {part, system_.fields() - system_.gaps()}};
     for (std::size_t k = 0; k < system_.S.matrix.size(); ++k) fill.S[k] = system_.S.matrix[k]->getLocalMatrixDevice();
-    fill.contact = known;
-    fill.penalty = penalty.getLocalViewDevice(Tpetra::Access::ReadOnly);
+    fill.gaps.contact = known;
+    fill.gaps.penalty = penalty.getLocalViewDevice(Tpetra::Access::ReadOnly);
     fill.A = A_->getLocalMatrixDevice();
     Kokkos::parallel_for("thixis::contact::constrained_matrix", Range(0, fill.S[0].numRows()), fill);
     solver_.set_matrix(A_, size_, coordinates_);

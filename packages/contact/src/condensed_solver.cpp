@@ -43,22 +43,13 @@ Kokkos::View<double*> share_of_elements(const ElementUnknowns& elements, LocalIn
 template <class View>
 struct Constrain {
   TransformedBlocks blocks;
-  int means;
+  GapsOfPart<View> gaps;
   Matrices S[most_matrices];
   ElementUnknowns elements;
   LocalIndex first;
-  View contact, penalty;  ///< at columns
   Kokkos::View<const double*> share;
   Matrices A;  ///< out, overwritten
 
-  KOKKOS_FUNCTION bool known(LocalIndex node, int i) const {
-    const int gap = blocks.part.gap(i, means);
-    return gap >= 0 && contact(node, gap) > 0;
-  }
-  KOKKOS_FUNCTION double added(LocalIndex node, int i) const {
-    const int gap = blocks.part.gap(i, means);
-    return gap >= 0 ? share(node) * blocks.part.stretch[i] * blocks.part.stretch[i] * penalty(node, gap) : 0;
-  }
   KOKKOS_FUNCTION void pair(int e, int i, int j, const Small* c) const {
     const int size = blocks.part.size;
     const LocalIndex row = elements(first + e, i), column = elements(first + e, j);
@@ -66,8 +57,8 @@ struct Constrain {
       for (int g = 0; g < size; ++g) {
         double value = 0;
         for (int k = 0; k < blocks.matrices; ++k) value += c[k](f, g) * S[k](e, i, j);
-        if (i == j && f == g) value += added(row, f);
-        else if (known(row, f) || known(column, g)) value = 0;
+        if (i == j && f == g) value += share(row) * gaps.added(row, f);
+        else if (gaps.known(row, f) || gaps.known(column, g)) value = 0;
         A(e, size * i + f, size * j + g) = value;
       }
   }
@@ -103,10 +94,10 @@ class CondensedSolver final : public ConstrainedSolver {
   void set_matrix(const Part& part, const MultiVector& contact, const MultiVector& penalty) override {
     const MultiVector contact_columns = at_columns(system_, contact), penalty_columns = at_columns(system_, penalty);
     const auto known = contact_columns.getLocalViewDevice(Tpetra::Access::ReadOnly);
-    Constrain<std::decay_t<decltype(known)>> kernel{TransformedBlocks(system_, part), system_.fields() - system_.gaps()};
+    Constrain<std::decay_t<decltype(known)>> kernel{TransformedBlocks(system_, part), {part, system_.fields() - system_.gaps()}};
     kernel.elements = cells().elements;
-    kernel.contact = known;
-    kernel.penalty = penalty_columns.getLocalViewDevice(Tpetra::Access::ReadOnly);
+    kernel.gaps.contact = known;
+    kernel.gaps.penalty = penalty_columns.getLocalViewDevice(Tpetra::Access::ReadOnly);
     kernel.share = share_;
     condensation_.set_matrix([&](LocalIndex first, const Matrices& A) {
       reserve(A.extent_int(0));

@@ -44,6 +44,23 @@ struct TransformedBlocks {
   }
 };
 
+/// What contact makes of the unknowns of a part: gaps that are known, and what free ones add to the diagonal, stretched as the part is.
+template <class View>
+struct GapsOfPart {
+  Part part;
+  int means;
+  View contact, penalty;  ///< of each gap, at columns as far as they are asked for
+
+  KOKKOS_INLINE_FUNCTION bool known(LocalIndex node, int i) const {
+    const int gap = part.gap(i, means);
+    return gap >= 0 && contact(node, gap) > 0;
+  }
+  KOKKOS_INLINE_FUNCTION double added(LocalIndex node, int i) const {
+    const int gap = part.gap(i, means);
+    return gap >= 0 ? part.stretch[i] * part.stretch[i] * penalty(node, gap) : 0;
+  }
+};
+
 /// Tᵀ S T, applied.
 class TransformedOperator {
  public:
