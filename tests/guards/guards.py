@@ -150,6 +150,8 @@ def extremes():
         in_time = block == "time" or entry.group(1) in ("fields every", "steps at most", "retries at most")
         deck = TIME if in_time else GOOD
         short = with_settings(mesh__refinements=0, **({"time__step": 0.2, "mesh__cells_per_side": 2} if in_time else {}))
+        if block == "adapt" or entry.group(1) == "target":  # such runs refine up to their limits
+            short = [*short, *with_settings(adapt__max_unknowns=1000, adapt__max_levels=3)]
         whole = ("2147483647", "-2147483648", "9223372036854775807", "0")
         for value in whole if entry.group(2) != "double" else (*whole, "1e308", "-1e308", "5e-324"):
             thixis("run", deck, "--output", "out", *short, *with_settings(output__fields="none"), "--set",
