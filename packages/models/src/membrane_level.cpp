@@ -323,8 +323,8 @@ const Vector& MembraneLevel::areas() const {
   return *areas_;
 }
 
-equilibration::ContactProblem MembraneLevel::contact_problem() const {
-  equilibration::ContactProblem contact;
+bound::ContactProblem MembraneLevel::contact_problem() const {
+  bound::ContactProblem contact;
   contact.count = scene_.count;
   contact.obstacle = scene_.obstacle;
   contact.interface = scene_.interface_level_set;

@@ -5,8 +5,8 @@
 
 #include "membrane_checks.hpp"
 #include "membrane_problem.hpp"
+#include "thixis/bound/guaranteed_bound.hpp"
 #include "thixis/complementarity/active_set.hpp"
-#include "thixis/equilibration/guaranteed_bound.hpp"
 #include "thixis/method/polynomial_space.hpp"
 #include "thixis/models/model.hpp"
 #include "thixis/output/checkpoint.hpp"
@@ -66,7 +66,7 @@ class MembraneLevel {
   double largest_gap(const algebra::Vector& X) const;  ///< at the contact points
 
   /// The scene as its bound sees it.
-  equilibration::ContactProblem contact_problem() const;
+  bound::ContactProblem contact_problem() const;
 
  private:
   void require_stiffness() const;
@@ -102,7 +102,7 @@ struct MembraneIterate {
   Fields x, r;
   algebra::Vector gap_l;
   Teuchos::RCP<const algebra::Vector> residual[2];
-  equilibration::Iterate iterate;
+  bound::Iterate iterate;
 
   MembraneIterate(const MembraneLevel& of, const algebra::Vector& X);
   MembraneIterate(const MembraneIterate&) = delete;

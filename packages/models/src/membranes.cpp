@@ -9,9 +9,9 @@
 #include "membrane_kkt.hpp"
 #include "membrane_level.hpp"
 #include "membrane_pieces.hpp"
+#include "thixis/bound/guaranteed_bound.hpp"
+#include "thixis/bound/published_bound.hpp"
 #include "thixis/core/timer.hpp"
-#include "thixis/equilibration/guaranteed_bound.hpp"
-#include "thixis/equilibration/published_bound.hpp"
 #include "thixis/scene/heights.hpp"
 
 namespace thixis::models {
@@ -78,7 +78,7 @@ class MembraneDiscretization final : public Discretization {
   complementarity::Estimate estimate(const Vector& X) override {
     if (!bound_) {
       const core::Region region("estimate set-up");
-      bound_ = std::make_unique<equilibration::GuaranteedBound>(on_mesh_->polynomials(), on_mesh_->contact_problem(), hierarchy_, level_);
+      bound_ = std::make_unique<bound::GuaranteedBound>(on_mesh_->polynomials(), on_mesh_->contact_problem(), hierarchy_, level_);
     }
     const MembraneIterate seen(*on_mesh_, X);
     return (*bound_)(seen.iterate);
@@ -104,11 +104,11 @@ class MembraneDiscretization final : public Discretization {
     const auto& dirichlet = on_mesh_->boundary().dirichlet;
     const bool held = std::all_of(dirichlet.begin(), dirichlet.end(), [](bool kind) { return kind; });
     if (!friedrichs && !held) return std::nullopt;
-    const double C = friedrichs ? *friedrichs : equilibration::friedrichs_of_box(space().mesh());
+    const double C = friedrichs ? *friedrichs : bound::friedrichs_of_box(space().mesh());
     const MembraneIterate seen(*on_mesh_, X);
     const Coefficients gap = difference(seen.iterate.u[0], scene_.count == 2 ? seen.iterate.u[1] : on_mesh_->obstacle());
     const auto bound =
-        equilibration::published_bound(on_mesh_->polynomials(), on_mesh_->contact_problem(), hierarchy_, level_, seen.iterate, gap, C);
+        bound::published_bound(on_mesh_->polynomials(), on_mesh_->contact_problem(), hierarchy_, level_, seen.iterate, gap, C);
     return PublishedEstimate{bound.parts,
                              {{"flux", bound.flux},
                               {"residual", bound.residual},
@@ -142,7 +142,7 @@ class MembraneDiscretization final : public Discretization {
   const mesh::Hierarchy& hierarchy_;
   int level_;
   std::unique_ptr<MembraneLevel> on_mesh_;
-  std::unique_ptr<equilibration::GuaranteedBound> bound_;  ///< made when an estimate is first asked for
+  std::unique_ptr<bound::GuaranteedBound> bound_;  ///< made when an estimate is first asked for
 };
 
 class Membranes final : public StationaryModel {

@@ -8,9 +8,9 @@
 #include "heights.hpp"
 #include "membrane_kkt.hpp"
 #include "membrane_level.hpp"
+#include "thixis/bound/step_bound.hpp"
 #include "thixis/core/error.hpp"
 #include "thixis/core/timer.hpp"
-#include "thixis/equilibration/step_bound.hpp"
 #include "thixis/mesh/adapt.hpp"
 #include "thixis/models/parabolic_membranes.hpp"
 #include "thixis/scene/heights.hpp"
@@ -264,7 +264,7 @@ class ParabolicEvolution final : public Evolution {
     begun_ = open_ = estimated_ = false;
     bounded_ = stored.count("bounded", 1) != 0;
     restored_bound_.clear();
-    for (const std::string& name : equilibration::StepBound::names_of_sums())
+    for (const std::string& name : bound::StepBound::names_of_sums())
       if (bounded_) restored_bound_[name] = stored.number(name);
     if (bound_ && bounded_) bound_->restore(restored_bound_);
     return X;
@@ -332,12 +332,12 @@ class ParabolicEvolution final : public Evolution {
     return std::make_unique<MembraneLevel>(scene_, origin_, make_space_, method_, linear_, hierarchy_.finest());
   }
 
-  std::unique_ptr<equilibration::StepBound> make_bound(double time) const {
+  std::unique_ptr<bound::StepBound> make_bound(double time) const {
     const core::Region region("estimate set-up");
     auto contact = on_mesh_->contact_problem();
     contact.time = time;
-    return std::make_unique<equilibration::StepBound>(on_mesh_->polynomials(), contact, hierarchy_,
-                                                      static_cast<int>(hierarchy_.levels.size()) - 1, friedrichs_);
+    return std::make_unique<bound::StepBound>(on_mesh_->polynomials(), contact, hierarchy_, static_cast<int>(hierarchy_.levels.size()) - 1,
+                                              friedrichs_);
   }
 
   /// With the boundary values of the time of the data.
@@ -384,10 +384,10 @@ class ParabolicEvolution final : public Evolution {
   Teuchos::RCP<const Vector> before_last_;  ///< at the begin of the last step accepted, whose length is last_length_; null: none
   double last_length_ = 0;
   double squared_error_ = 0;
-  std::unique_ptr<equilibration::StepBound> bound_;  ///< made when an estimate is first asked for
-  bool estimated_ = false;                           ///< in the step begun
-  bool bounded_ = false;                             ///< every step so far was estimated
-  std::map<std::string, double> restored_bound_;     ///< sums of a checkpoint
+  std::unique_ptr<bound::StepBound> bound_;       ///< made when an estimate is first asked for
+  bool estimated_ = false;                        ///< in the step begun
+  bool bounded_ = false;                          ///< every step so far was estimated
+  std::map<std::string, double> restored_bound_;  ///< sums of a checkpoint
 };
 
 class ParabolicMembranes final : public UnsteadyModel {

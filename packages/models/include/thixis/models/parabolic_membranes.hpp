@@ -14,7 +14,7 @@ namespace thixis::models {
 ///     d_t u1 - div(mu1 grad u1) - lambda = f1,   d_t u2 - div(mu2 grad u2) + lambda = f2,
 ///     u1 - u2 >= 0,  lambda >= 0,  (u1 - u2) lambda = 0,      u1, u2 given at time 0.
 ///
-/// `make_space`, `check_mesh`: the method. `friedrichs`: of equilibration::StepBound.
+/// `make_space`, `check_mesh`: the method. `friedrichs`: of bound::StepBound.
 std::unique_ptr<UnsteadyModel> parabolic_membranes(scene::MembraneScene scene, method::SpaceFactory make_space, method::MethodParams method,
                                                    algebra::LinearParams linear, method::MeshCheck check_mesh = {},
                                                    std::optional<double> friedrichs = {});
