@@ -1,5 +1,5 @@
 #include "constrained_solver.hpp"
-#include "thixis/method/condensation.hpp"
+#include "thixis/contact/condensation.hpp"
 
 namespace thixis::contact {
 namespace {
@@ -86,7 +86,7 @@ class CondensedSolver final : public ConstrainedSolver {
         size_(part.size),
         condensation_(algebra::interlaced(system.map(), size_), algebra::interlaced(system.S.matrix[0]->getColMap(), size_),
                       interlaced(cells().elements, size_), size_ * cells().interior,
-                      cells().symmetric ? method::LocalForm::positive_definite : method::LocalForm::general),
+                      cells().symmetric ? LocalForm::positive_definite : LocalForm::general),
         solver_(params),
         coordinates_(coordinates_left(*coordinates)),
         share_(share_of_elements(cells().elements, algebra::local_columns(*system.S.matrix[0]))) {}
@@ -174,7 +174,7 @@ class CondensedSolver final : public ConstrainedSolver {
 
   const System& system_;
   int size_;
-  method::Condensation condensation_;
+  Condensation condensation_;
   algebra::Solver solver_;
   Teuchos::RCP<const MultiVector> coordinates_;
   Kokkos::View<const double*> share_;

@@ -9,10 +9,10 @@
 #include "problems.hpp"
 #include "thixis/algebra/solver.hpp"
 #include "thixis/algebra/tpetra.hpp"
+#include "thixis/contact/condensation.hpp"
 #include "thixis/mesh/adapt.hpp"
 #include "thixis/mesh/geometry.hpp"
 #include "thixis/mesh/host.hpp"
-#include "thixis/method/condensation.hpp"
 
 namespace thixis::hho {
 namespace {
@@ -67,7 +67,7 @@ struct Poisson {
   Vector solution() const { return solved(V.stiffness(*tension), right_side()); }
   Vector condensed_solution() const {
     const auto form = V.cell_form(*tension);
-    method::Condensation condensation(V.map(), V.graph()->getColMap(), V.elements(), V.interior(), method::LocalForm::positive_definite);
+    contact::Condensation condensation(V.map(), V.graph()->getColMap(), V.elements(), V.interior(), contact::LocalForm::positive_definite);
     condensation.set_matrix([&](LocalIndex first, const method::LocalMatrices& A) { form->matrices(first, A); });
     const Vector F = right_side();
     Vector reduced(condensation.rows()), u(V.map());
@@ -290,7 +290,7 @@ TEST(Unknowns, are_those_of_all_cells_and_of_the_faces_inside) {
       const GlobalIndex points = static_cast<GlobalIndex>(V->points()->getGlobalNumElements());
       EXPECT_EQ(2 * (all - points), published[p - 1][level]);
       EXPECT_EQ(2 * all + points, with_cells[p - 1][level]);
-      const method::Condensation condensation(V->map(), V->graph()->getColMap(), V->elements(), V->interior(), method::LocalForm::general);
+      const contact::Condensation condensation(V->map(), V->graph()->getColMap(), V->elements(), V->interior(), contact::LocalForm::general);
       EXPECT_EQ(static_cast<GlobalIndex>(condensation.rows()->getGlobalNumElements()), all - points);
     }
 }

@@ -3,7 +3,7 @@
 
 #include "thixis/core/types.hpp"
 
-namespace thixis::method {
+namespace thixis::contact {
 
 /// Partial factors of the local matrices of elements: n unknowns each, the first m eliminated. With row exchanges among the first m,
 ///
@@ -25,9 +25,9 @@ struct LocalFactors {
       : n(unknowns),
         m(eliminated),
         symmetric(symmetric_matrices),
-        U("thixis::method::upper_factors", elements, upper_begin(m)),
-        L("thixis::method::lower_factors", symmetric ? 0 : elements, lower_begin(n)),
-        pivot("thixis::method::pivots", symmetric ? 0 : elements, m) {}
+        U("thixis::contact::upper_factors", elements, upper_begin(m)),
+        L("thixis::contact::lower_factors", symmetric ? 0 : elements, lower_begin(n)),
+        pivot("thixis::contact::pivots", symmetric ? 0 : elements, m) {}
 
   KOKKOS_FUNCTION int upper_begin(int k) const { return k * n - k * (k - 1) / 2; }
   KOKKOS_FUNCTION int lower_begin(int i) const { return i <= m ? i * (i - 1) / 2 : m * (m - 1) / 2 + (i - m) * m; }
@@ -66,4 +66,4 @@ struct LocalFactors {
   }
 };
 
-}  // namespace thixis::method
+}  // namespace thixis::contact

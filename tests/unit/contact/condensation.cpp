@@ -1,4 +1,4 @@
-#include "thixis/method/condensation.hpp"
+#include "thixis/contact/condensation.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,9 +13,11 @@
 #include "thixis/algebra/tpetra.hpp"
 #include "thixis/core/error.hpp"
 
-namespace thixis::method {
+namespace thixis::contact {
 namespace {
 
+using method::make_graph;
+using method::scatter;
 using Block = Kokkos::View<double***, Kokkos::LayoutRight>;
 
 /// In [-1, 1], the same on every number of ranks.
@@ -285,4 +287,4 @@ TEST(Condensation, allocates_nothing_per_element) {
   EXPECT_EQ(counted[0], counted[1]);
 }
 
-}  // namespace thixis::method
+}  // namespace thixis::contact

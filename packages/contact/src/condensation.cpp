@@ -1,172 +1,30 @@
-#include "thixis/method/condensation.hpp"
+#include "thixis/contact/condensation.hpp"
 
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <string>
 #include <vector>
 
-#include "local_factors.hpp"
+#include "elimination.hpp"
 #include "thixis/algebra/tpetra.hpp"
 #include "thixis/core/assert.hpp"
 #include "thixis/core/error.hpp"
 
-namespace thixis::method {
+namespace thixis::contact {
 namespace {
 
+using method::block_size;
+using method::make_graph;
+using method::scatter;
 using Execution = algebra::Graph::execution_space;
-using Block2 = Kokkos::View<double**, Kokkos::LayoutRight>;
-using Block3 = Kokkos::View<double***, Kokkos::LayoutRight>;
-using Input = decltype(std::declval<const algebra::Vector&>().getLocalViewDevice(Tpetra::Access::ReadOnly));
-using Output = decltype(std::declval<algebra::Vector&>().getLocalViewDevice(Tpetra::Access::ReadWrite));
 using Indices = Kokkos::View<const LocalIndex*>;
 
 constexpr LocalIndex none = std::numeric_limits<LocalIndex>::max();
 
 /// Local matrices of a block that fit, with their factors, into the second-level cache.
 constexpr std::size_t cache = 1 << 18;
-
-/// Partial LU factorization of the local matrices, in place: S replaces A_BB. Finds the first element that has none.
-struct Eliminate {
-  ElementUnknowns elements;
-  LocalIndex first;
-  LocalIndex kept;  ///< factors are kept of the elements before this one
-  Block3 A;
-  LocalFactors factors;  ///< out, overwritten
-
-  KOKKOS_FUNCTION void operator()(int e, LocalIndex& singular) const {
-    double* a = &A(e, 0, 0);
-    detach_fixed(e, a);
-    const bool regular = factors.symmetric ? factor_symmetric(a) : factor_general(e, a);
-    if (!regular && first + e < singular) singular = first + e;
-    if (first + e < kept) keep(e, a);
-  }
-
-  /// Interior unknowns -1 become identity rows and columns.
-  KOKKOS_FUNCTION void detach_fixed(int e, double* a) const {
-    const int n = factors.n;
-    for (int k = 0; k < factors.m; ++k) {
-      if (elements(first + e, k) >= 0) continue;
-      for (int j = 0; j < n; ++j) a[k * n + j] = a[j * n + k] = 0;
-      a[k * n + k] = 1;
-    }
-  }
-
-  // A pivot is zero if it is nothing but rounding in a_kk = U_kk + sum over i < k of L_ki U_ik: a test without units. Pivots are inverted
-  // in place.
-
-  /// U_i = A_i - sum over k < i of L_ik U_k, row by row on and above the diagonal, where L_ik = U_ki / U_kk; two k at a time take half the
-  /// loads and stores. S is mirrored to below the diagonal.
-  KOKKOS_FUNCTION bool factor_symmetric(double* a) const {
-    const int n = factors.n, m = factors.m;
-    for (int i = 0; i < n; ++i) {
-      double* __restrict__ row = a + i * n;
-      const double diagonal = row[i];
-      const int last = i < m ? i : m;
-      int k = 0;
-      for (; k + 1 < last; k += 2) {
-        const double *u = a + k * n, *v = u + n;
-        const double L_iu = u[i] * u[k], L_iv = v[i] * v[k + 1];
-        for (int j = i; j < n; ++j) row[j] -= L_iu * u[j] + L_iv * v[j];
-      }
-      if (k < last) {
-        const double* u = a + k * n;
-        const double L_iu = u[i] * u[k];
-        for (int j = i; j < n; ++j) row[j] -= L_iu * u[j];
-      }
-      if (i >= m) continue;
-      if (!(row[i] > rounding() * diagonal)) return false;
-      row[i] = 1 / row[i];
-    }
-    for (int i = m; i < n; ++i)
-      for (int j = m; j < i; ++j) a[i * n + j] = a[j * n + i];
-    return true;
-  }
-
-  KOKKOS_FUNCTION bool factor_general(int e, double* a) const {
-    const int n = factors.n, m = factors.m;
-    for (int k = 0; k < m; ++k) {
-      int pivot = k;
-      for (int i = k + 1; i < m; ++i)
-        if (std::abs(a[i * n + k]) > std::abs(a[pivot * n + k])) pivot = i;
-      if (first + e < kept) factors.pivot(first + e, k) = pivot;
-      double* u = a + k * n;
-      for (int j = 0; j < n && pivot != k; ++j) {
-        const double exchanged = u[j];
-        u[j] = a[pivot * n + j];
-        a[pivot * n + j] = exchanged;
-      }
-      double terms = std::abs(u[k]);
-      for (int i = 0; i < k; ++i) terms += std::abs(u[i] * a[i * n + k]);
-      if (!(std::abs(u[k]) > rounding() * terms)) return false;
-      u[k] = 1 / u[k];
-      for (int i = k + 1; i < n; ++i) {
-        double* __restrict__ row = a + i * n;
-        const double L_ik = row[k] *= u[k];
-        for (int j = k + 1; j < n; ++j) row[j] -= L_ik * u[j];
-      }
-    }
-    return true;
-  }
-
-  KOKKOS_FUNCTION double rounding() const { return factors.m * std::numeric_limits<double>::epsilon(); }
-
-  KOKKOS_FUNCTION void keep(int e, const double* a) const {
-    const int n = factors.n, m = factors.m;
-    double* U = &factors.U(first + e, 0);
-    for (int k = 0; k < m; ++k)
-      for (int j = k; j < n; ++j) *U++ = a[k * n + j];
-    if (factors.symmetric) return;
-    double* L = &factors.L(first + e, 0);
-    for (int i = 1; i < n; ++i)
-      for (int k = 0; k < (i < m ? i : m); ++k) *L++ = a[i * n + k];
-  }
-};
-
-/// y_B = -A_BI A_II^{-1} b_I; unknowns of other ranks count as 0 in b_I.
-struct Reduce {
-  ElementUnknowns elements;
-  LocalIndex first;
-  LocalFactors factors;
-  Input b;
-  Block2 y;  ///< out, overwritten
-
-  KOKKOS_FUNCTION void operator()(int e) const {
-    for (int i = 0; i < factors.n; ++i) {
-      const LocalIndex row = i < factors.m ? elements(first + e, i) : -1;
-      y(e, i) = row >= 0 && row < b.extent_int(0) ? b(row, 0) : 0;
-    }
-    factors.forward(first + e, &y(e, 0), factors.n);
-  }
-};
-
-/// x_I = A_II^{-1} (b_I - A_IB x_B).
-struct Recover {
-  ElementUnknowns elements, remaining;
-  LocalIndex first;
-  LocalFactors factors;
-  Input b, x_remaining;
-  Block2 y;
-  Output x;  ///< out, rows of I overwritten
-
-  KOKKOS_FUNCTION void operator()(int e) const {
-    const int n = factors.n, m = factors.m;
-    for (int i = 0; i < m; ++i) {
-      const LocalIndex row = elements(first + e, i);
-      y(e, i) = row >= 0 && row < b.extent_int(0) ? b(row, 0) : 0;
-    }
-    for (int i = m; i < n; ++i) {
-      const LocalIndex column = remaining(first + e, i);
-      y(e, i) = column >= 0 ? x_remaining(column, 0) : 0;
-    }
-    factors.forward(first + e, &y(e, 0), m);
-    factors.backward(first + e, &y(e, 0));
-    for (int i = 0; i < m; ++i)
-      if (const LocalIndex row = elements(first + e, i); row >= 0 && row < x.extent_int(0)) x(row, 0) = y(e, i);
-  }
-};
 
 /// f(first, count) for blocks of elements.
 template <class F>
@@ -235,14 +93,14 @@ struct Condensation::Impl {
       }
     }
 
-    const Kokkos::View<LocalIndex**, Kokkos::LayoutRight> left("thixis::method::remaining", count, width);
+    const Kokkos::View<LocalIndex**, Kokkos::LayoutRight> left("thixis::contact::remaining", count, width);
     const auto host = Kokkos::create_mirror_view(left);
     for (int e = 0; e < count; ++e)
       for (int i = 0; i < width; ++i) host(e, i) = i < interior || unknowns(e, i) < 0 ? -1 : condensed[unknowns(e, i)];
     Kokkos::deep_copy(left, host);
     remaining = left;
-    original_row = on_device(original, "thixis::method::original_row");
-    condensed_column = on_device(condensed, "thixis::method::condensed_column");
+    original_row = on_device(original, "thixis::contact::original_row");
+    condensed_column = on_device(condensed, "thixis::contact::condensed_column");
     graph = make_graph(rows, algebra::map_of(ids, comm()), remaining);
   }
 };
@@ -259,8 +117,8 @@ Condensation::Condensation(const algebra::MapPtr& rows, const algebra::MapPtr& c
   impl_->factors = LocalFactors(impl_->kept, n, interior, form == LocalForm::positive_definite);
   const std::size_t bytes = sizeof(double) * n * n;
   const std::size_t length = Execution().concurrency() * std::clamp<std::size_t>(cache / std::max<std::size_t>(bytes, 1), 1, block_size);
-  impl_->A = Block3("thixis::method::local_matrices", std::min<std::size_t>(length, count), n, n);
-  impl_->y = Block2("thixis::method::local_vectors", std::min<std::size_t>(block_size, count), n);
+  impl_->A = Block3("thixis::contact::local_matrices", std::min<std::size_t>(length, count), n, n);
+  impl_->y = Block2("thixis::contact::local_vectors", std::min<std::size_t>(block_size, count), n);
 }
 
 Condensation::~Condensation() = default;
@@ -279,7 +137,7 @@ void Condensation::set_matrix(const FillLocalMatrices& local) {
       const auto A = Kokkos::subview(d.A, std::pair(0, count), Kokkos::ALL, Kokkos::ALL);
       local(first, A);
       LocalIndex singular = none;
-      Kokkos::parallel_reduce("thixis::method::eliminate", Kokkos::RangePolicy<Execution>(0, count),
+      Kokkos::parallel_reduce("thixis::contact::eliminate", Kokkos::RangePolicy<Execution>(0, count),
                               Eliminate{d.elements, first, d.kept, A, d.factors}, Kokkos::Min<LocalIndex>(singular));
       if (singular != none)
         throw core::InputError(
@@ -298,7 +156,7 @@ void Condensation::reduce(const algebra::Vector& b, algebra::Vector& b_condensed
   algebra::Vector shares(d.graph->getColMap());
   over_blocks(d.kept, d.y.extent_int(0), [&](LocalIndex first, LocalIndex count) {
     const auto y = Kokkos::subview(d.y, std::pair(0, count), Kokkos::ALL);
-    Kokkos::parallel_for("thixis::method::reduce", Kokkos::RangePolicy<Execution>(0, count),
+    Kokkos::parallel_for("thixis::contact::reduce", Kokkos::RangePolicy<Execution>(0, count),
                          Reduce{d.elements, first, d.factors, values, y});
     scatter(d.remaining, first, y, shares);
   });
@@ -310,7 +168,7 @@ void Condensation::reduce(const algebra::Vector& b, algebra::Vector& b_condensed
   const auto original_row = d.original_row;
   const auto sum = b_condensed.getLocalViewDevice(Tpetra::Access::ReadWrite);
   Kokkos::parallel_for(
-      "thixis::method::reduce_own", Kokkos::RangePolicy<Execution>(0, original_row.extent_int(0)),
+      "thixis::contact::reduce_own", Kokkos::RangePolicy<Execution>(0, original_row.extent_int(0)),
       KOKKOS_LAMBDA(int row) { sum(row, 0) += values(original_row(row), 0); });
 }
 
@@ -325,13 +183,13 @@ void Condensation::recover(const algebra::Vector& b, const algebra::Vector& x_co
   const auto values = x.getLocalViewDevice(Tpetra::Access::OverwriteAll);
   const auto original_row = d.original_row;
   Kokkos::parallel_for(
-      "thixis::method::recover_own", Kokkos::RangePolicy<Execution>(0, original_row.extent_int(0)),
+      "thixis::contact::recover_own", Kokkos::RangePolicy<Execution>(0, original_row.extent_int(0)),
       KOKKOS_LAMBDA(int row) { values(original_row(row), 0) = remaining(row, 0); });
   over_blocks(d.kept, d.y.extent_int(0), [&](LocalIndex first, LocalIndex count) {
     const auto y = Kokkos::subview(d.y, std::pair(0, count), Kokkos::ALL);
-    Kokkos::parallel_for("thixis::method::recover", Kokkos::RangePolicy<Execution>(0, count),
+    Kokkos::parallel_for("thixis::contact::recover", Kokkos::RangePolicy<Execution>(0, count),
                          Recover{d.elements, d.remaining, first, d.factors, given, remaining, y, values});
   });
 }
 
-}  // namespace thixis::method
+}  // namespace thixis::contact

@@ -6,7 +6,7 @@
 #include "thixis/algebra/fwd.hpp"
 #include "thixis/method/graph.hpp"
 
-namespace thixis::method {
+namespace thixis::contact {
 
 /// (first, A): fills all of A(e, i, j), e < A.extent(0), with the local matrices of the elements first + e. Must not communicate.
 using FillLocalMatrices = std::function<void(LocalIndex first, const Kokkos::View<double***, Kokkos::LayoutRight>& A)>;
@@ -30,7 +30,8 @@ class Condensation {
  public:
   /// Collective. rows, columns: of all unknowns; the rows are the first columns. elements: those that touch a row of this rank, the
   /// unknowns I of each are its first `interior` ones. All symbolic work is done here.
-  Condensation(const algebra::MapPtr& rows, const algebra::MapPtr& columns, const ElementUnknowns& elements, int interior, LocalForm form);
+  Condensation(const algebra::MapPtr& rows, const algebra::MapPtr& columns, const method::ElementUnknowns& elements, int interior,
+               LocalForm form);
   ~Condensation();
   Condensation(const Condensation&) = delete;
   Condensation& operator=(const Condensation&) = delete;
@@ -59,4 +60,4 @@ class Condensation {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace thixis::method
+}  // namespace thixis::contact
