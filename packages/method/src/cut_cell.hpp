@@ -13,6 +13,13 @@ struct ReferencePoint {
 };
 using Triangle = std::array<ReferencePoint, 3>;
 
+inline ReferencePoint between(const ReferencePoint& a, const ReferencePoint& b, double s) {
+  return {a.xi + s * (b.xi - a.xi), a.eta + s * (b.eta - a.eta)};
+}
+
+/// Position in the lattice of the point with barycentric coordinates (6-i-j, i, j)/6.
+inline int lattice_index(int i, int j) { return j * 7 - j * (j - 1) / 2 + i; }
+
 /// Quadrature on triangles that the zero set of a level set phi cuts, for integrands that are smooth on either side of it.
 ///
 /// From a vertex V rays go to the points E(t) of the opposite edge. Between two zeros of phi on that edge every ray meets the curve
