@@ -13,14 +13,14 @@
 namespace thixis {
 namespace {
 
-method::SpaceFactory make_method(const method::MethodParams& method) {
+method::Method make_method(const method::MethodParams& method) {
   switch (method.name) {
     case method::MethodName::fem:
-      return fem::make_lagrange_space;
+      return fem::lagrange();
     case method::MethodName::dg:
-      return dg::make_space;
+      return dg::interior_penalty();
     case method::MethodName::hho:
-      return hho::make_space;
+      return hho::hybrid();
     default:
       throw core::InputError("method/name: " + method::to_text(method.name) + " serves two-phase flow alone; write fem, dg or hho.");
   }
@@ -59,15 +59,13 @@ std::unique_ptr<models::Model> make_two_phase(const drive::RunParams& params) {
 
 std::unique_ptr<models::Model> make_model(const drive::RunParams& params) {
   if (params.scene.model == scene::Model::two_phase) return make_two_phase(params);
-  const auto make_space = make_method(params.method);
-  const auto check_mesh = params.method.name == method::MethodName::dg ? dg::check_mesh : method::MeshCheck();
+  const method::Method method = make_method(params.method);
   switch (params.scene.model) {
     case scene::Model::membranes:
     case scene::Model::obstacle:
-      return membranes::membranes(scene::membrane_scene(params.scene), make_space, params.method, params.linear, initial_fields(params),
-                                  check_mesh);
+      return membranes::membranes(scene::membrane_scene(params.scene), method, params.method, params.linear, initial_fields(params));
     case scene::Model::parabolic_membranes:
-      return membranes::parabolic_membranes(scene::membrane_scene(params.scene), make_space, params.method, params.linear, check_mesh,
+      return membranes::parabolic_membranes(scene::membrane_scene(params.scene), method, params.method, params.linear,
                                             params.stopping.friedrichs);
     default:
       throw core::InputError("scene/model: this version does not serve " + scene::to_text(params.scene.model) +

@@ -63,7 +63,7 @@ double arithmetic() {
 
 struct Subject {
   std::string name;
-  method::SpaceFactory factory;
+  method::Method method;
   method::MethodParams params;
 };
 
@@ -73,11 +73,11 @@ std::vector<Subject> subjects() {
     method::MethodParams params;
     params.degree = p;
     params.name = method::MethodName::fem;
-    all.push_back({fmt::format("fem P{}", p), fem::make_lagrange_space, params});
+    all.push_back({fmt::format("fem P{}", p), fem::lagrange(), params});
     params.name = method::MethodName::dg;
-    all.push_back({fmt::format("sipg P{}", p), dg::make_space, params});
+    all.push_back({fmt::format("sipg P{}", p), dg::interior_penalty(), params});
     params.name = method::MethodName::hho;
-    all.push_back({fmt::format("hho P{}", p), hho::make_space, params});
+    all.push_back({fmt::format("hho P{}", p), hho::hybrid(), params});
   }
   return all;
 }
@@ -88,13 +88,15 @@ void measure(const Subject& subject, const mesh::Mesh& mesh, double bytes_per_se
   const auto tension = scene::constant(1);
   const auto force = scene::formula([](double x, double y) { return x * y; });
   std::unique_ptr<method::Space> V;
-  const double setup = seconds([&] { V = subject.factory(mesh, {std::vector<bool>(mesh.tags.size(), true), nullptr, subject.params}); });
+  const double setup = seconds([&] {
+    V = subject.method.make_space(mesh, {std::vector<bool>(mesh.tags.size(), true), nullptr, subject.params});
+  });
   algebra::MatrixPtr S;
-  const double matrix = seconds([&] { S = V->stiffness(*tension); });
+  const double matrix = seconds([&] { S = method::assemble(*subject.method.diffusion(*V, tension)); });
   algebra::Vector F(V->map());
-  const double load = seconds([&] { V->load(*tension, *force, boundary, 0, F); });
+  const double load = seconds([&] { method::load(*subject.method.diffusion(*V, tension), *force, boundary, 0, F); });
 
-  const auto form = V->cell_form(*tension);
+  const auto form = subject.method.diffusion(*V, tension)->cells();
   const int n = V->elements().extent_int(1);
   const LocalIndex cells = V->elements().extent_int(0), most = method::cells_per_block(n);
   const method::LocalMatrices A("local", most, n, n);

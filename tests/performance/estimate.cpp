@@ -22,7 +22,7 @@ using algebra::Vector;
 constexpr int restart = 50;
 
 std::unique_ptr<models::StationaryModel> model(const drive::RunParams& params, const algebra::LinearParams& linear) {
-  return membranes::membranes(scene::membrane_scene(params.scene), factory(params.method.name), params.method, linear, {});
+  return membranes::membranes(scene::membrane_scene(params.scene), method_of(params.method.name), params.method, linear, {});
 }
 
 /// Sets up the system of the first Newton step at X; its residual goes to R. Seconds.

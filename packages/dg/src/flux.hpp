@@ -5,7 +5,7 @@
 namespace thixis::dg {
 
 using Table = Kokkos::View<const double**, Kokkos::LayoutRight>;
-using ElementEntries = Kokkos::View<const LocalIndex**, Kokkos::LayoutRight>;
+using method::ElementEntries;
 
 /// What the flux of dG needs of the reference cell, q = p.
 struct FluxTables {

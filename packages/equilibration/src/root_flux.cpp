@@ -8,7 +8,7 @@
 #include "thixis/core/error.hpp"
 #include "thixis/mesh/host.hpp"
 #include "thixis/method/graph.hpp"
-#include "thixis/method/polynomial_space.hpp"
+#include "thixis/method/form.hpp"
 
 namespace thixis::equilibration {
 namespace {

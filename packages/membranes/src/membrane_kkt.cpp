@@ -6,6 +6,7 @@
 
 #include "thixis/mesh/geometry.hpp"
 #include "thixis/mesh/host.hpp"
+#include "thixis/method/measures.hpp"
 
 namespace thixis::membranes {
 namespace {
@@ -68,7 +69,7 @@ double largest_elsewhere(const Vector& v, LocalIndex points) {
 Vector force_alone(const MembraneSolution& solution, int alpha) {
   const std::vector<scene::FieldPtr> zero(solution.space.mesh().tags.size(), scene::constant(0));
   Vector F(solution.space.map());
-  solution.space.load(*solution.scene.tension[alpha], *solution.scene.force[alpha], {zero, zero}, solution.t, F);
+  method::load(*solution.form[alpha], *solution.scene.force[alpha], {zero, zero}, solution.t, F);
   return F;
 }
 
@@ -105,7 +106,7 @@ PointForces point_forces(const MembraneSolution& solution, std::vector<double> l
 }  // namespace
 
 complementarity::KktData kkt_data(const MembraneSolution& solution) {
-  const auto& [scene, space, problem, body, x, u, t, rate] = solution;
+  const auto& [scene, space, form, problem, body, x, u, t, rate] = solution;
   const MembraneOperator& membranes = problem.membranes();
   const MembraneMeasure& measure = problem.measure();
   const LocalIndex points = algebra::local_size(*membranes.points());
@@ -116,16 +117,16 @@ complementarity::KktData kkt_data(const MembraneSolution& solution) {
   auto claimed = Teuchos::rcp(new Vector(membranes.points()));
   claimed->elementWiseMultiply(1, space.pairing(), x.lambda, 0);
   data.claimed = claimed;
-  data.between_nodes =
-      scene.count == 1 ? space.penetration(u[0], scene.obstacle.get(), t) : space.penetration(difference(u[0], u[1]), nullptr, t);
+  data.between_nodes = scene.count == 1 ? method::penetration(space, u[0], scene.obstacle.get(), t)
+                                        : method::penetration(space, difference(u[0], u[1]), nullptr, t);
 
   std::vector<double> largest, unbalanced;
   for (int alpha = 0; alpha < scene.count; ++alpha) {
     // D lambda_1 = a(u1, psi) - F1,  D lambda_2 = F2 - a(u2, psi), with (d_t u, psi) beside a(u, psi) in time
     Vector defect(space.map()), inertia(space.map());
-    space.forces(*scene.tension[alpha], u[alpha], defect);
+    method::apply(*form[alpha], u[alpha], defect);
     if (rate[alpha].extent(0) > 0) {
-      space.apply_mass(rate[alpha], inertia);
+      method::apply(*method::mass(space), rate[alpha], inertia);
       defect.update(1, inertia, 1);
     }
     const double sign = alpha == 0 ? 1 : -1;

@@ -8,6 +8,7 @@ namespace thixis::membranes {
 struct MembraneSolution {
   const scene::MembraneScene& scene;
   const method::Space& space;
+  const std::array<method::FormPtr, 2>& form;
   const MembraneProblem& problem;
   const Teuchos::RCP<algebra::Vector>* body;  ///< loads, before Dirichlet data are moved to the right
   Fields x;

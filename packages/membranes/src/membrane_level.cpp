@@ -8,6 +8,7 @@
 #include "heights.hpp"
 #include "thixis/core/error.hpp"
 #include "thixis/core/text.hpp"
+#include "thixis/method/transfer.hpp"
 #include "thixis/method/values_at.hpp"
 
 namespace thixis::membranes {
@@ -52,10 +53,11 @@ std::vector<double> values_of(const scene::Field& field, const std::vector<model
 
 }  // namespace
 
-MembraneLevel::MembraneLevel(const scene::MembraneScene& scene, double origin, const method::SpaceFactory& make_space,
-                             const method::MethodParams& method, const algebra::LinearParams& linear, const mesh::Mesh& mesh)
+MembraneLevel::MembraneLevel(const scene::MembraneScene& scene, double origin, const method::Method& by, const method::MethodParams& method,
+                             const algebra::LinearParams& linear, const mesh::Mesh& mesh)
     : scene_(scene), origin_(origin), method_(method), boundary_(boundary_of(scene, mesh)) {
-  space_ = make_space(mesh, {boundary_.dirichlet, scene.interface_level_set, method});
+  space_ = by.make_space(mesh, {boundary_.dirichlet, scene.interface_level_set, method});
+  for (int alpha = 0; alpha < scene.count; ++alpha) form_[alpha] = by.diffusion(*space_, scene.tension[alpha]);
   steady_interface_ = steady({scene.interface_level_set});
   for (int alpha = 0; alpha < scene.count; ++alpha) {
     const auto& [dirichlet, neumann] = boundary_.values[alpha];
@@ -67,7 +69,7 @@ MembraneLevel::MembraneLevel(const scene::MembraneScene& scene, double origin, c
   set_lifts();
   nothing_ = Coefficients("thixis::membranes::nothing", lift_[0].extent(0));
   set_loads();
-  problem_ = std::make_unique<MembraneProblem>(membrane_operator(scene, *space_, method, lift_, body_), linear, space_->coordinates());
+  problem_ = std::make_unique<MembraneProblem>(membrane_operator(scene, by, form_, method, lift_, body_), linear, space_->coordinates());
   require_stiffness();
   if (scene.count == 1) obstacle_ = space_->complete(*problem_->membranes().obstacle, lift_of_obstacle());
   measure_from_rest();
@@ -119,7 +121,7 @@ Vector MembraneLevel::force_alone(int alpha) const {
   for (auto& value : unheld.dirichlet)
     if (value) value = scene::constant(0);
   Vector force(space_->map());
-  space_->load(*scene_.tension[alpha], *scene_.force[alpha], unheld, time_, force);
+  method::load(*form_[alpha], *scene_.force[alpha], unheld, time_, force);
   return force;
 }
 
@@ -154,7 +156,7 @@ void MembraneLevel::set_lifts() {
 
 void MembraneLevel::set_loads() {
   for (int alpha = 0; alpha < scene_.count; ++alpha)
-    space_->load(*scene_.tension[alpha], *scene_.force[alpha], boundary_.values[alpha], time_, *body_[alpha]);
+    method::load(*form_[alpha], *scene_.force[alpha], boundary_.values[alpha], time_, *body_[alpha]);
 }
 
 void MembraneLevel::move_to(double t) {
@@ -172,15 +174,16 @@ Teuchos::RCP<Vector> MembraneLevel::from_coarse(const MembraneLevel& coarse, con
   Vector settled(coarse_X, Teuchos::Copy);
   coarse.problem_->settle(settled);
   const Fields coarse_x = coarse.fields(settled);
+  const method::Transfer P(*coarse.space_, *space_);
   const auto X = zero();
   Fields x = fields(*X);
   for (int alpha = 0; alpha < scene_.count; ++alpha) {
     Coefficients u = coarse.membrane(coarse_x, alpha);
     if (scene_.count == 1) u = difference(u, coarse.obstacle_);  // the gap: where it is closed it stays so
-    space_->prolongate(*coarse.space_, u, *x.u.getVectorNonConst(alpha));
+    P.prolongate(u, *x.u.getVectorNonConst(alpha));
   }
   if (scene_.count == 1) x.u.update(1, *problem_->membranes().obstacle, 1);
-  space_->prolongate_multiplier(*coarse.space_, coarse_x.lambda, x.lambda);
+  P.multiplier(coarse_x.lambda, x.lambda);
   return X;
 }
 
@@ -267,8 +270,8 @@ std::vector<double> MembraneLevel::values_at(const std::vector<models::Probe>& p
   const Fields x = fields(X);
   const auto places = place(probes, space_->mesh());
   std::vector<std::vector<double>> columns;
-  for (int alpha = 0; alpha < scene_.count; ++alpha) columns.push_back(method::values_at(polynomials(), places, membrane(x, alpha)));
-  columns.push_back(method::values_at(polynomials(), places, space_->multiplier(x.lambda)));
+  for (int alpha = 0; alpha < scene_.count; ++alpha) columns.push_back(method::values_at(*space_, places, membrane(x, alpha)));
+  columns.push_back(method::values_at(*space_, places, space_->multiplier(x.lambda)));
   columns.push_back(columns[0]);
   const auto below = scene_.count == 2 ? columns[1] : values_of(*scene_.obstacle, probes);
   for (std::size_t i = 0; i < probes.size(); ++i) columns.back()[i] -= below[i];
@@ -315,10 +318,8 @@ models::Contact MembraneLevel::contact(const Vector& X) const {
 /// Set up at the first call. Collective.
 const Vector& MembraneLevel::areas() const {
   if (areas_.is_null()) {
-    const std::vector<scene::FieldPtr> zero(space_->mesh().tags.size(), scene::constant(0));
-    const auto one = scene::constant(1);
     areas_ = Teuchos::rcp(new Vector(space_->map()));
-    space_->load(*one, *one, {zero, zero}, 0, *areas_);
+    space_->mesh().comm.together([&] { space_->add_moments(*scene::constant(1), 0, *areas_); });
   }
   return *areas_;
 }
@@ -330,6 +331,7 @@ bound::ContactProblem MembraneLevel::contact_problem() const {
   contact.interface = scene_.interface_level_set;
   for (int alpha = 0; alpha < scene_.count; ++alpha) {
     contact.tension[alpha] = scene_.tension[alpha];
+    contact.form[alpha] = form_[alpha];
     contact.force[alpha] = scene_.force[alpha];
     contact.boundary[alpha] = boundary_.values[alpha];
   }

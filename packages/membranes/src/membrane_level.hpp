@@ -7,7 +7,7 @@
 #include "membrane_problem.hpp"
 #include "thixis/bound/guaranteed_bound.hpp"
 #include "thixis/complementarity/active_set.hpp"
-#include "thixis/method/polynomial_space.hpp"
+#include "thixis/method/form.hpp"
 #include "thixis/models/model.hpp"
 #include "thixis/output/checkpoint.hpp"
 #include "thixis/output/fields.hpp"
@@ -18,13 +18,13 @@ namespace thixis::membranes {
 class MembraneLevel {
  public:
   /// At time 0. The scene, whose heights are counted from `origin`, and the mesh must outlive it. Collective.
-  MembraneLevel(const scene::MembraneScene& scene, double origin, const method::SpaceFactory& make_space,
-                const method::MethodParams& method, const algebra::LinearParams& linear, const mesh::Mesh& mesh);
+  MembraneLevel(const scene::MembraneScene& scene, double origin, const method::Method& by, const method::MethodParams& method,
+                const algebra::LinearParams& linear, const mesh::Mesh& mesh);
 
   const scene::MembraneScene& scene() const { return scene_; }
   int count() const { return scene_.count; }
   const method::Space& space() const { return *space_; }
-  const method::PolynomialSpace& polynomials() const { return dynamic_cast<const method::PolynomialSpace&>(*space_); }
+  const std::array<method::FormPtr, 2>& forms() const { return form_; }  ///< (mu_alpha grad u, grad v)
   const Boundary& boundary() const { return boundary_; }
   MembraneProblem& problem() { return *problem_; }
   const MembraneProblem& problem() const { return *problem_; }
@@ -85,6 +85,7 @@ class MembraneLevel {
   double origin_;  ///< of heights
   method::MethodParams method_;
   std::unique_ptr<method::Space> space_;
+  std::array<method::FormPtr, 2> form_;
   Boundary boundary_;
   std::array<double, 2> rest_ = {0, 0};                   ///< heights at which the membranes rest at the beginning
   std::array<double, 2> size_ = {0, 0}, start_ = {0, 0};  ///< the largest heights of each membrane: in the data, at the start

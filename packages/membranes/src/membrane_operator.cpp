@@ -25,22 +25,24 @@ Small only(int begin, int end) {
 }
 
 /// Matrices of tensions that are constants: one, times each of them; else one for each membrane.
-contact::BlockOperator block_operator(const scene::MembraneScene& scene, const method::Space& space, const method::MethodParams& method) {
+contact::BlockOperator block_operator(const scene::MembraneScene& scene, const method::Method& by,
+                                      const std::array<method::FormPtr, 2>& form, const method::MethodParams& method) {
+  const method::Space& space = form[0]->space();
   contact::BlockOperator S;
   S.fields = scene.count;
-  auto cells = std::make_shared<contact::CellForms>(contact::CellForms{space.elements(), space.interior(), space.symmetric(), {}});
+  auto cells = std::make_shared<contact::CellForms>(contact::CellForms{space.elements(), space.interior(), form[0]->symmetric(), {}});
   const bool condensed = method.condensed() && space.interior() > 0;
-  const auto add = [&](const scene::Field& tension, const Small& weight) {
-    S.matrix.push_back(space.stiffness(tension));
+  const auto add = [&](const method::Form& a, const Small& weight) {
+    S.matrix.push_back(method::assemble(a));
     S.weight.push_back(weight);
-    if (condensed) cells->form.push_back(space.cell_form(tension));
+    if (condensed) cells->form.push_back(a.cells());
   };
   if (std::all_of(scene.tension, scene.tension + scene.count, [](const auto& tension) { return tension->constant() != nullptr; })) {
     Small mu;
     for (int alpha = 0; alpha < scene.count; ++alpha) mu(alpha, alpha) = *scene.tension[alpha]->constant();
-    add(*scene::constant(1), mu);
+    add(*by.diffusion(space, scene::constant(1)), mu);
   } else {
-    for (int alpha = 0; alpha < scene.count; ++alpha) add(*scene.tension[alpha], only(alpha, alpha + 1));
+    for (int alpha = 0; alpha < scene.count; ++alpha) add(*form[alpha], only(alpha, alpha + 1));
   }
   if (condensed) S.cells = cells;
   return S;
@@ -80,15 +82,16 @@ void MembraneOperator::apply(int alpha, const Vector& u, Vector& y, double c, do
   system.S.matrix[matrix_of(alpha)]->apply(u, y, Teuchos::NO_TRANS, c * factor(alpha), d);
 }
 
-MembraneOperator membrane_operator(const scene::MembraneScene& scene, const method::Space& space, const method::MethodParams& method,
-                                   const method::Coefficients* lift, const Teuchos::RCP<Vector>* body) {
+MembraneOperator membrane_operator(const scene::MembraneScene& scene, const method::Method& by, const std::array<method::FormPtr, 2>& form,
+                                   const method::MethodParams& method, const method::Coefficients* lift, const Teuchos::RCP<Vector>* body) {
   MembraneOperator membranes;
-  membranes.system.S = block_operator(scene, space, method);
+  const method::Space& space = form[0]->space();
+  membranes.system.S = block_operator(scene, by, form, method);
   membranes.system.load = Teuchos::rcp(new MultiVector(space.map(), scene.count));
   for (int alpha = 0; alpha < scene.count; ++alpha) {
     // what the Dirichlet data exert on the unknowns moves to the right
     Vector held(space.map());
-    space.forces(*scene.tension[alpha], lift[alpha], held);
+    method::apply(*form[alpha], lift[alpha], held);
     membranes.system.load->getVectorNonConst(alpha)->update(1, *body[alpha], -1, held, 0);
   }
   if (scene.count == 2) {
@@ -108,7 +111,7 @@ MembraneOperator membrane_operator(const scene::MembraneScene& scene, const meth
   return membranes;
 }
 
-Inertia::Inertia(const method::Space& space, MembraneOperator& membranes) : space_(space), mass_(space.mass()) {
+Inertia::Inertia(const method::Space& space, MembraneOperator& membranes) : space_(space), mass_(method::assemble(*method::mass(space))) {
   contact::BlockOperator& S = membranes.system.S;
   const bool one = S.matrix.size() == 1 && membranes.factor(0) == membranes.factor(membranes.count() - 1);
   const int different = one ? 1 : membranes.count();
@@ -136,7 +139,7 @@ void Inertia::set(double weight, MembraneOperator& membranes) {
   if (!cells) return;
   auto with_mass = std::make_shared<contact::CellForms>(*cells);
   with_mass->form.clear();
-  for (std::size_t k = 0; k < form_.size(); ++k) with_mass->form.push_back(space_.with_mass(form_[k], factor_[k], weight));
+  for (std::size_t k = 0; k < form_.size(); ++k) with_mass->form.push_back(method::with_mass(space_, form_[k], factor_[k], weight));
   cells = with_mass;
 }
 

@@ -4,7 +4,7 @@
 
 #include "thixis/algebra/tpetra.hpp"
 #include "thixis/contact/system.hpp"
-#include "thixis/method/space.hpp"
+#include "thixis/method/form.hpp"
 #include "thixis/scene/membranes.hpp"
 
 namespace thixis::membranes {
@@ -30,9 +30,11 @@ struct MembraneOperator {
   Teuchos::RCP<const algebra::Vector> load(int alpha) const { return system.load->getVector(alpha); }
 };
 
-/// The operator of a scene. `lift`, `body`: Dirichlet data and loads of each membrane. Collective.
-MembraneOperator membrane_operator(const scene::MembraneScene& scene, const method::Space& space, const method::MethodParams& method,
-                                   const method::Coefficients* lift, const Teuchos::RCP<algebra::Vector>* body);
+/// The operator of a scene, from the forms of the membranes on their space. `lift`, `body`: Dirichlet data and loads of each membrane.
+/// Collective.
+MembraneOperator membrane_operator(const scene::MembraneScene& scene, const method::Method& by, const std::array<method::FormPtr, 2>& form,
+                                   const method::MethodParams& method, const method::Coefficients* lift,
+                                   const Teuchos::RCP<algebra::Vector>* body);
 
 /// The matrices of a scene in time, S_alpha + weight M with the mass M of the space; symbolic work is done once.
 class Inertia {
@@ -46,7 +48,7 @@ class Inertia {
   const method::Space& space_;
   std::vector<double> factor_;  ///< of each of the different matrices
   std::vector<Teuchos::RCP<const algebra::Matrix>> stiffness_;
-  std::vector<std::shared_ptr<const method::CellForm>> form_;
+  std::vector<std::shared_ptr<const method::ElementForm>> form_;
   algebra::MatrixPtr mass_;
   std::vector<algebra::MatrixPtr> sum_;
 };

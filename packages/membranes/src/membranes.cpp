@@ -22,12 +22,12 @@ using method::Coefficients;
 
 class MembraneDiscretization final : public models::Discretization {
  public:
-  MembraneDiscretization(const scene::MembraneScene& scene, double origin, const method::SpaceFactory& make_space,
-                         const method::MethodParams& method, const algebra::LinearParams& linear,
-                         const std::array<scene::FieldPtr, 3>& initial, const mesh::Hierarchy& hierarchy, int level)
+  MembraneDiscretization(const scene::MembraneScene& scene, double origin, const method::Method& by, const method::MethodParams& method,
+                         const algebra::LinearParams& linear, const std::array<scene::FieldPtr, 3>& initial,
+                         const mesh::Hierarchy& hierarchy, int level)
       : scene_(scene), initial_(initial), hierarchy_(hierarchy), level_(level) {
     const core::Region region("assembly");
-    on_mesh_ = std::make_unique<MembraneLevel>(scene, origin, make_space, method, linear, hierarchy.levels[level]);
+    on_mesh_ = std::make_unique<MembraneLevel>(scene, origin, by, method, linear, hierarchy.levels[level]);
   }
 
   complementarity::Problem& problem() override { return on_mesh_->problem(); }
@@ -63,22 +63,22 @@ class MembraneDiscretization final : public models::Discretization {
     const Fields x = on_mesh_->fields(X);
     double sum = 0;
     for (int alpha = 0; alpha < scene_.count; ++alpha)
-      sum += space().energy_error(*scene_.tension[alpha], on_mesh_->membrane(x, alpha),
-                                  exact_gradient(*scene_.exact, alpha, space().mesh()), 0);
+      sum += method::energy_error(*on_mesh_->forms()[alpha], on_mesh_->membrane(x, alpha),
+                                  {method::Known{exact_gradient(*scene_.exact, alpha, space().mesh())}}, 0);
     return std::sqrt(sum);
   }
 
   double energy_norm(const Vector& X) const override {
     const Fields x = on_mesh_->fields(X);
     double sum = 0;
-    for (int alpha = 0; alpha < scene_.count; ++alpha) sum += space().energy(*scene_.tension[alpha], on_mesh_->membrane(x, alpha));
+    for (int alpha = 0; alpha < scene_.count; ++alpha) sum += method::energy(*on_mesh_->forms()[alpha], on_mesh_->membrane(x, alpha));
     return std::sqrt(sum);
   }
 
   complementarity::Estimate estimate(const Vector& X) override {
     if (!bound_) {
       const core::Region region("estimate set-up");
-      bound_ = std::make_unique<bound::GuaranteedBound>(on_mesh_->polynomials(), on_mesh_->contact_problem(), hierarchy_, level_);
+      bound_ = std::make_unique<bound::GuaranteedBound>(space(), on_mesh_->contact_problem(), hierarchy_, level_);
     }
     const MembraneIterate seen(*on_mesh_, X);
     return (*bound_)(seen.iterate);
@@ -100,15 +100,14 @@ class MembraneDiscretization final : public models::Discretization {
   std::size_t bytes_of_estimate() const override { return bound_ ? bound_->bytes() : 0; }
 
   std::optional<models::PublishedEstimate> published_estimate(const Vector& X, std::optional<double> friedrichs) override {
-    if (!on_mesh_->polynomials().conforming()) return std::nullopt;
+    if (!space().conforming()) return std::nullopt;
     const auto& dirichlet = on_mesh_->boundary().dirichlet;
     const bool held = std::all_of(dirichlet.begin(), dirichlet.end(), [](bool kind) { return kind; });
     if (!friedrichs && !held) return std::nullopt;
     const double C = friedrichs ? *friedrichs : bound::friedrichs_of_box(space().mesh());
     const MembraneIterate seen(*on_mesh_, X);
     const Coefficients gap = difference(seen.iterate.u[0], scene_.count == 2 ? seen.iterate.u[1] : on_mesh_->obstacle());
-    const auto bound =
-        bound::published_bound(on_mesh_->polynomials(), on_mesh_->contact_problem(), hierarchy_, level_, seen.iterate, gap, C);
+    const auto bound = bound::published_bound(space(), on_mesh_->contact_problem(), hierarchy_, level_, seen.iterate, gap, C);
     return models::PublishedEstimate{bound.parts,
                                      {{"flux", bound.flux},
                                       {"residual", bound.residual},
@@ -119,7 +118,7 @@ class MembraneDiscretization final : public models::Discretization {
   }
 
   complementarity::KktData kkt_data(const Vector& X) const override {
-    MembraneSolution solution{scene_, space(), on_mesh_->problem(), on_mesh_->body(), on_mesh_->fields(X)};
+    MembraneSolution solution{scene_, space(), on_mesh_->forms(), on_mesh_->problem(), on_mesh_->body(), on_mesh_->fields(X)};
     for (int alpha = 0; alpha < scene_.count; ++alpha) solution.u[alpha] = on_mesh_->membrane(solution.x, alpha);
     return membranes::kkt_data(solution);
   }
@@ -149,14 +148,9 @@ class MembraneDiscretization final : public models::Discretization {
 
 class Membranes final : public models::StationaryModel {
  public:
-  Membranes(scene::MembraneScene scene, method::SpaceFactory make_space, method::MethodParams method, algebra::LinearParams linear,
-            std::array<scene::FieldPtr, 3> initial, method::MeshCheck check_mesh)
-      : scene_(std::move(scene)),
-        make_space_(std::move(make_space)),
-        check_mesh_(std::move(check_mesh)),
-        method_(method),
-        linear_(linear),
-        initial_(std::move(initial)) {
+  Membranes(scene::MembraneScene scene, method::Method by, method::MethodParams method, algebra::LinearParams linear,
+            std::array<scene::FieldPtr, 3> initial)
+      : scene_(std::move(scene)), by_(std::move(by)), method_(method), linear_(linear), initial_(std::move(initial)) {
     for (int field = 0; field < 3; ++field)
       if (!initial_[field]) initial_[field] = scene_.initial[field];
   }
@@ -171,12 +165,12 @@ class Membranes final : public models::StationaryModel {
     check_held(scene_, boundary);
     check_functions(scene_, initial_, method_, mesh);
     check_pieces(scene_, boundary, mesh);
-    if (check_mesh_) check_mesh_(mesh, {boundary.dirichlet, scene_.interface_level_set, method_});
+    if (by_.check) by_.check(mesh, {boundary.dirichlet, scene_.interface_level_set, method_});
   }
   std::unique_ptr<models::Discretization> discretize(const mesh::Hierarchy& hierarchy, int level) const override {
     if (!counted_) count_from(heights_of(scene_, hierarchy.levels.front(), 0).origin());
-    return std::make_unique<MembraneDiscretization>(counted_->scene, counted_->origin, make_space_, method_, linear_, counted_->initial,
-                                                    hierarchy, level);
+    return std::make_unique<MembraneDiscretization>(counted_->scene, counted_->origin, by_, method_, linear_, counted_->initial, hierarchy,
+                                                    level);
   }
 
  private:
@@ -193,8 +187,7 @@ class Membranes final : public models::StationaryModel {
 
   scene::MembraneScene scene_;
   mutable std::optional<Counted> counted_;  ///< since the first mesh
-  method::SpaceFactory make_space_;
-  method::MeshCheck check_mesh_;
+  method::Method by_;
   method::MethodParams method_;
   algebra::LinearParams linear_;
   std::array<scene::FieldPtr, 3> initial_;
@@ -202,10 +195,9 @@ class Membranes final : public models::StationaryModel {
 
 }  // namespace
 
-std::unique_ptr<models::StationaryModel> membranes(scene::MembraneScene scene, method::SpaceFactory make_space, method::MethodParams method,
-                                                   algebra::LinearParams linear, std::array<scene::FieldPtr, 3> initial,
-                                                   method::MeshCheck check_mesh) {
-  return std::make_unique<Membranes>(std::move(scene), std::move(make_space), method, linear, std::move(initial), std::move(check_mesh));
+std::unique_ptr<models::StationaryModel> membranes(scene::MembraneScene scene, method::Method by, method::MethodParams method,
+                                                   algebra::LinearParams linear, std::array<scene::FieldPtr, 3> initial) {
+  return std::make_unique<Membranes>(std::move(scene), std::move(by), method, linear, std::move(initial));
 }
 
 }  // namespace thixis::membranes

@@ -13,6 +13,7 @@
 #include "thixis/core/timer.hpp"
 #include "thixis/membranes/parabolic_membranes.hpp"
 #include "thixis/mesh/adapt.hpp"
+#include "thixis/method/measures.hpp"
 #include "thixis/scene/heights.hpp"
 
 namespace thixis::membranes {
@@ -40,12 +41,12 @@ struct Pair {
 
 class ParabolicEvolution final : public models::Evolution {
  public:
-  ParabolicEvolution(const scene::MembraneScene& scene, const method::SpaceFactory& make_space, const method::MethodParams& method,
+  ParabolicEvolution(const scene::MembraneScene& scene, const method::Method& by, const method::MethodParams& method,
                      const algebra::LinearParams& linear, mesh::Hierarchy hierarchy, std::optional<double> friedrichs,
                      std::vector<models::Probe> probes)
       : origin_(heights_of(scene, hierarchy.levels.front(), 0).origin()),
         scene_(scene::counted_from(origin_, scene)),
-        make_space_(make_space),
+        by_(by),
         method_(method),
         linear_(linear),
         hierarchy_(std::move(hierarchy)),
@@ -91,9 +92,9 @@ class ParabolicEvolution final : public models::Evolution {
     Vector part(space().map());
     for (int alpha = 0; alpha < 2; ++alpha) {
       const auto F = problem.membranes().system.load->getVectorNonConst(alpha);
-      space().apply_mass(combination(weight_, before_.u[alpha], -weight_, on_mesh_->lift(alpha)), part);
+      method::apply(*method::mass(space()), combination(weight_, before_.u[alpha], -weight_, on_mesh_->lift(alpha)), part);
       F->update(1, *on_mesh_->body()[alpha], 1, part, 0);
-      space().forces(*scene_.tension[alpha], on_mesh_->lift(alpha), part);
+      method::apply(*on_mesh_->forms()[alpha], on_mesh_->lift(alpha), part);
       F->update(-1, part, 1);
     }
     on_mesh_->measure_from(on_mesh_->fields(before).u);
@@ -147,7 +148,7 @@ class ParabolicEvolution final : public models::Evolution {
     if (!estimated_) return std::nullopt;
     const auto errors = bound_->errors();
     double energy = 0;
-    for (int alpha = 0; alpha < 2; ++alpha) energy += space().energy(*scene_.tension[alpha], seen_.u[alpha]);
+    for (int alpha = 0; alpha < 2; ++alpha) energy += method::energy(*on_mesh_->forms()[alpha], seen_.u[alpha]);
     return models::StepErrors{errors.time, errors.space, finest * std::sqrt(step_.length() * energy)};
   }
 
@@ -183,7 +184,7 @@ class ParabolicEvolution final : public models::Evolution {
   double energy_norm(const Vector& X) const override {
     const Pair now = at(X);
     double square = 0;
-    for (int alpha = 0; alpha < 2; ++alpha) square += space().energy(*scene_.tension[alpha], now.u[alpha]);
+    for (int alpha = 0; alpha < 2; ++alpha) square += method::energy(*on_mesh_->forms()[alpha], now.u[alpha]);
     return std::sqrt(square);
   }
 
@@ -197,7 +198,7 @@ class ParabolicEvolution final : public models::Evolution {
 
   /// At X^0, and where a run is taken up again, the equations say nothing: the multiplier is judged by its sign alone.
   complementarity::KktData kkt_data(const Vector& X) const override {
-    MembraneSolution solution{scene_, space(), on_mesh_->problem(), on_mesh_->body(), on_mesh_->fields(X)};
+    MembraneSolution solution{scene_, space(), on_mesh_->forms(), on_mesh_->problem(), on_mesh_->body(), on_mesh_->fields(X)};
     solution.t = on_mesh_->time();
     for (int alpha = 0; alpha < 2; ++alpha) {
       solution.u[alpha] = on_mesh_->membrane(solution.x, alpha);
@@ -227,7 +228,8 @@ class ParabolicEvolution final : public models::Evolution {
       const Pair now = at(X);
       const double t = on_mesh_->time();
       values.push_back(std::sqrt(squared_energy_error(now, t)));
-      for (int alpha = 0; alpha < 2; ++alpha) values.push_back(std::sqrt(space().l2_error(now.u[alpha], *scene_.exact->u[alpha], t)));
+      for (int alpha = 0; alpha < 2; ++alpha)
+        values.push_back(std::sqrt(method::l2_error(space(), now.u[alpha], scene_.exact->u[alpha], t)));
     }
     if (!probes_.empty())
       for (const double value : on_mesh_->values_at(probes_, X)) values.push_back(value);
@@ -331,15 +333,14 @@ class ParabolicEvolution final : public models::Evolution {
 
   std::unique_ptr<MembraneLevel> make_level() const {
     const core::Region region("assembly");
-    return std::make_unique<MembraneLevel>(scene_, origin_, make_space_, method_, linear_, hierarchy_.finest());
+    return std::make_unique<MembraneLevel>(scene_, origin_, by_, method_, linear_, hierarchy_.finest());
   }
 
   std::unique_ptr<bound::StepBound> make_bound(double time) const {
     const core::Region region("estimate set-up");
     auto contact = on_mesh_->contact_problem();
     contact.time = time;
-    return std::make_unique<bound::StepBound>(on_mesh_->polynomials(), contact, hierarchy_, static_cast<int>(hierarchy_.levels.size()) - 1,
-                                              friedrichs_);
+    return std::make_unique<bound::StepBound>(space(), contact, hierarchy_, static_cast<int>(hierarchy_.levels.size()) - 1, friedrichs_);
   }
 
   /// With the boundary values of the time of the data.
@@ -351,7 +352,8 @@ class ParabolicEvolution final : public models::Evolution {
   double squared_energy_error(const Pair& now, double t) const {
     double sum = 0;
     for (int alpha = 0; alpha < 2; ++alpha)
-      sum += space().energy_error(*scene_.tension[alpha], now.u[alpha], exact_gradient(*scene_.exact, alpha, space().mesh()), t);
+      sum += method::energy_error(*on_mesh_->forms()[alpha], now.u[alpha],
+                                  {method::Known{exact_gradient(*scene_.exact, alpha, space().mesh())}}, t);
     return sum;
   }
 
@@ -368,7 +370,7 @@ class ParabolicEvolution final : public models::Evolution {
 
   double origin_;                     ///< of heights: where the membranes are held at the beginning
   const scene::MembraneScene scene_;  ///< with heights counted from there
-  const method::SpaceFactory& make_space_;
+  const method::Method& by_;
   method::MethodParams method_;
   algebra::LinearParams linear_;
   mesh::Hierarchy hierarchy_;
@@ -394,14 +396,9 @@ class ParabolicEvolution final : public models::Evolution {
 
 class ParabolicMembranes final : public models::UnsteadyModel {
  public:
-  ParabolicMembranes(scene::MembraneScene scene, method::SpaceFactory make_space, method::MethodParams method, algebra::LinearParams linear,
-                     method::MeshCheck check_mesh, std::optional<double> friedrichs)
-      : scene_(std::move(scene)),
-        make_space_(std::move(make_space)),
-        check_mesh_(std::move(check_mesh)),
-        method_(method),
-        linear_(linear),
-        friedrichs_(friedrichs) {
+  ParabolicMembranes(scene::MembraneScene scene, method::Method by, method::MethodParams method, algebra::LinearParams linear,
+                     std::optional<double> friedrichs)
+      : scene_(std::move(scene)), by_(std::move(by)), method_(method), linear_(linear), friedrichs_(friedrichs) {
     for (int alpha = 0; alpha < 2; ++alpha)
       if (!scene_.initial[alpha] && scene_.exact) scene_.initial[alpha] = scene_.exact->u[alpha];
   }
@@ -430,14 +427,13 @@ class ParabolicMembranes final : public models::UnsteadyModel {
             fmt::format("scene/data/initial: nothing says where u{} is at time 0; give initial/u{}.", alpha + 1, alpha + 1));
     check_functions(scene_, {scene_.initial[0], scene_.initial[1], nullptr}, method_, mesh);
     check_order({scene_.initial[0], scene_.initial[1]}, method_, mesh);
-    if (check_mesh_) check_mesh_(mesh, {boundary_of(scene_, mesh).dirichlet, scene_.interface_level_set, method_});
-    return std::make_unique<ParabolicEvolution>(scene_, make_space_, method_, linear_, std::move(hierarchy), friedrichs_, wanted.probes);
+    if (by_.check) by_.check(mesh, {boundary_of(scene_, mesh).dirichlet, scene_.interface_level_set, method_});
+    return std::make_unique<ParabolicEvolution>(scene_, by_, method_, linear_, std::move(hierarchy), friedrichs_, wanted.probes);
   }
 
  private:
   scene::MembraneScene scene_;
-  method::SpaceFactory make_space_;
-  method::MeshCheck check_mesh_;
+  method::Method by_;
   method::MethodParams method_;
   algebra::LinearParams linear_;
   std::optional<double> friedrichs_;
@@ -445,10 +441,9 @@ class ParabolicMembranes final : public models::UnsteadyModel {
 
 }  // namespace
 
-std::unique_ptr<models::UnsteadyModel> parabolic_membranes(scene::MembraneScene scene, method::SpaceFactory make_space,
-                                                           method::MethodParams method, algebra::LinearParams linear,
-                                                           method::MeshCheck check_mesh, std::optional<double> friedrichs) {
-  return std::make_unique<ParabolicMembranes>(std::move(scene), std::move(make_space), method, linear, std::move(check_mesh), friedrichs);
+std::unique_ptr<models::UnsteadyModel> parabolic_membranes(scene::MembraneScene scene, method::Method by, method::MethodParams method,
+                                                           algebra::LinearParams linear, std::optional<double> friedrichs) {
+  return std::make_unique<ParabolicMembranes>(std::move(scene), std::move(by), method, linear, friedrichs);
 }
 
 }  // namespace thixis::membranes

@@ -3,7 +3,7 @@
 #include <array>
 
 #include "thixis/mesh/host.hpp"
-#include "thixis/method/polynomial_space.hpp"
+#include "thixis/method/layout.hpp"
 
 namespace thixis::method {
 namespace {

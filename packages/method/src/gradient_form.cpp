@@ -1,10 +1,11 @@
 #include "thixis/method/gradient_form.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <string>
 
+#include "polynomial_kernels.hpp"
 #include "thixis/core/error.hpp"
-#include "thixis/method/cell_functions.hpp"
 #include "thixis/reference/quadrature.hpp"
 
 namespace thixis::method {
@@ -80,7 +81,7 @@ Kokkos::View<double* [3], Kokkos::LayoutRight> reference_products(const referenc
   return Q;
 }
 
-class ConstantForm final : public CellForm {
+class ConstantForm final : public ElementForm {
  public:
   ConstantForm(const mesh::Mesh& mesh, const View<const LocalIndex*>& cells, const reference::CellBasis& basis, double mu)
       : mesh_(mesh), cells_(cells), Q_(reference_products(basis)), mu_(mu) {}
@@ -96,7 +97,7 @@ class ConstantForm final : public CellForm {
   double mu_;
 };
 
-class VaryingForm final : public CellForm {
+class VaryingForm final : public ElementForm {
  public:
   VaryingForm(const CellQuadrature& quadrature, const reference::CellBasis& basis, const View<const double*>& mu)
       : quadrature_(quadrature), functions_(cell_functions(basis)), mu_(mu) {}
@@ -128,23 +129,48 @@ Kokkos::View<double**, Kokkos::LayoutRight> matrix_view(const char* label, int r
 
 LocalIndex cells_per_block(int width) { return std::clamp<LocalIndex>((1 << 16) / (width * width), 16, block_size); }
 
-View<double*> tension_at_points(const mesh::Mesh& mesh, const CellQuadrature& quadrature, const scene::Field& tension) {
-  const View<double*> mu(Kokkos::view_alloc(std::string("thixis::method::tension"), Kokkos::WithoutInitializing), quadrature.points());
+View<double*> values_at_points(const mesh::Mesh& mesh, const CellQuadrature& quadrature, const scene::Field& field) {
+  const View<double*> values(Kokkos::view_alloc(std::string("thixis::method::coefficient"), Kokkos::WithoutInitializing),
+                             quadrature.points());
+  const auto offset = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), quadrature.offset);
   mesh.comm.together([&] {
-    const auto points = [&](LocalIndex k) { return static_cast<std::size_t>(quadrature.offset(k)); };
     for_each_block(quadrature, [&](const QuadratureBlock& block) {
-      const auto part = Kokkos::subview(mu, std::pair(points(block.first), points(block.first) + block.points));
-      evaluate(tension, 0, block, part);
-      for (int q = 0; q < block.points; ++q)
-        if (!(part(q) > 0))
-          throw core::InputError("scene/data: a tension is not positive in some cell; give tensions that are positive everywhere.");
+      const auto first = static_cast<std::size_t>(offset(block.first));
+      evaluate(field, 0, block, Kokkos::subview(values, std::pair(first, first + block.points)));
     });
   });
+  return values;
+}
+
+View<double*> tension_at_points(const mesh::Mesh& mesh, const CellQuadrature& quadrature, const scene::Field& tension) {
+  const View<double*> mu = values_at_points(mesh, quadrature, tension);
+  double least = std::numeric_limits<double>::infinity();
+  Kokkos::parallel_reduce(
+      "thixis::method::least_tension", Kokkos::RangePolicy<>(0, mu.extent_int(0)),
+      KOKKOS_LAMBDA(int q, double& lowest) { lowest = mu(q) < lowest ? mu(q) : lowest; }, Kokkos::Min<double>(least));
+  if (!(mesh.comm.min(least) > 0))
+    throw core::InputError("scene/data: a tension is not positive in some cell; give tensions that are positive everywhere.");
   return mu;
 }
 
-std::shared_ptr<const CellForm> gradient_form(const mesh::Mesh& mesh, const CellQuadrature& quadrature, const reference::CellBasis& basis,
-                                              const scene::Field& tension) {
+double gradient_energy(const Space& space, const scene::Field& tension, const QuadratureBlock& block, LocalIndex cells,
+                       const Coefficients& uh, const std::vector<Known>& u, double t) {
+  const bool compared = !u.empty();
+  const auto buffer = [&](const char* label, bool used) {
+    return View<double*>(Kokkos::view_alloc(std::string(label), Kokkos::WithoutInitializing), used ? block.points : 0);
+  };
+  const View<double*> mu = buffer("thixis::method::tension", true), x = buffer("thixis::method::gradient_x", compared),
+                      y = buffer("thixis::method::gradient_y", compared);
+  evaluate(tension, t, block, mu);
+  if (compared) {
+    evaluate(*u[0].gradient[0], t, block, x);
+    evaluate(*u[0].gradient[1], t, block, y);
+  }
+  return gradient_error(cell_functions(space.basis()), space.mesh(), block, cells, {mu, x, y}, space.coefficients().element_entries, uh);
+}
+
+std::shared_ptr<const ElementForm> gradient_form(const mesh::Mesh& mesh, const CellQuadrature& quadrature,
+                                                 const reference::CellBasis& basis, const scene::Field& tension) {
   if (const double* mu = tension.constant()) return std::make_shared<ConstantForm>(mesh, quadrature.cell, basis, *mu);
   return std::make_shared<VaryingForm>(quadrature, basis, tension_at_points(mesh, quadrature, tension));
 }

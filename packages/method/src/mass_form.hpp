@@ -1,22 +1,19 @@
 #pragma once
-#include "thixis/method/space.hpp"
-#include "thixis/reference/cell_basis.hpp"
+#include "thixis/method/form.hpp"
 
 namespace thixis::method {
 
 /// factor a_K(u, v) + weight (u, v)_K; the mass is that of the cells' polynomials, the first unknowns of each cell.
-class MassForm final : public CellForm {
+class MassForm final : public ElementForm {
  public:
-  /// `cells`: the patch cells. `form` null: no a_K. The mesh must outlive it.
-  MassForm(const mesh::Mesh& mesh, const mesh::View<const LocalIndex*>& cells, const reference::CellBasis& basis,
-           std::shared_ptr<const CellForm> form, double factor, double weight);
+  /// `form` null: no a_K. The space must outlive it.
+  MassForm(const Space& space, std::shared_ptr<const ElementForm> form, double factor, double weight);
   void matrices(LocalIndex first, const LocalMatrices& A) const override;
 
  private:
-  const mesh::Mesh& mesh_;
-  mesh::View<const LocalIndex*> cells_;
+  const Space& space_;
   Kokkos::View<const double**, Kokkos::LayoutRight> M_;  ///< (psi_i, psi_j) on the reference triangle
-  std::shared_ptr<const CellForm> form_;
+  std::shared_ptr<const ElementForm> form_;
   double factor_, weight_;
 };
 

@@ -57,6 +57,7 @@ Numbering number(const Entries& entries, const core::Comm& comm) {
 
   numbering.column_of_entry = mesh::View<LocalIndex*>("thixis::method::column_of_entry", entries.id.size());
   const auto column_of_entry = Kokkos::create_mirror_view(numbering.column_of_entry);
+  std::vector<LocalIndex> entry_of_column;
   std::vector<GlobalIndex> columns;
   columns.reserve(order.size());
   const auto in = algebra::host_view(std::as_const(codes));
@@ -66,10 +67,13 @@ Numbering number(const Entries& entries, const core::Comm& comm) {
     numbering.held[e] = held ? static_cast<LocalIndex>(-1 - in(k)) : -1;
     column_of_entry(e) = held ? -1 : static_cast<LocalIndex>(columns.size());
     if (held) continue;
-    numbering.entry_of_column.push_back(e);
+    entry_of_column.push_back(e);
     columns.push_back(static_cast<GlobalIndex>(in(k)));
   }
   Kokkos::deep_copy(numbering.column_of_entry, column_of_entry);
+  numbering.entry_of_column = mesh::View<LocalIndex*>("thixis::method::entry_of_column", entry_of_column.size());
+  Kokkos::deep_copy(numbering.entry_of_column,
+                    Kokkos::View<const LocalIndex*, Kokkos::HostSpace>(entry_of_column.data(), entry_of_column.size()));
   numbering.columns = algebra::map_of(columns, comm);
   return numbering;
 }

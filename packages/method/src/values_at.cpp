@@ -2,7 +2,7 @@
 
 namespace thixis::method {
 
-std::vector<double> values_at(const PolynomialSpace& space, const std::vector<mesh::Place>& places, const Coefficients& u) {
+std::vector<double> values_at(const Space& space, const std::vector<mesh::Place>& places, const Coefficients& u) {
   const auto entries = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), space.coefficients().element_entries);
   const auto u_host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), u);
   std::vector<double> values(places.size(), 0);

@@ -51,7 +51,7 @@ class BoundSetting : public ::testing::TestWithParam<std::string> {
   struct Case {
     std::vector<bool> held;
     ContactProblem problem;
-    std::unique_ptr<PolynomialSpace> V;
+    std::unique_ptr<Space> V;
     Coefficients u[2];
     std::unique_ptr<Vector> lambda, gap, residual[2];
     Iterate iterate() const {
@@ -96,10 +96,11 @@ class BoundSetting : public ::testing::TestWithParam<std::string> {
     params.degree = setting.degree;
     params.nodes = setting.nodes;
     const method::SpaceOptions options{c.held, nullptr, params};
-    auto space = setting.name == MethodName::fem  ? fem::make_lagrange_space(mesh, options)
-                 : setting.name == MethodName::dg ? dg::make_space(mesh, options)
-                                                  : hho::make_space(mesh, options);
-    c.V.reset(dynamic_cast<PolynomialSpace*>(space.release()));
+    const method::Method by = setting.name == MethodName::fem  ? fem::lagrange()
+                              : setting.name == MethodName::dg ? dg::interior_penalty()
+                                                               : hho::hybrid();
+    c.V = by.make_space(mesh, options);
+    for (int alpha = 0; alpha < count; ++alpha) c.problem.form[alpha] = by.diffusion(*c.V, c.problem.tension[alpha]);
     c.lambda = std::make_unique<Vector>(c.V->points());
     c.gap = std::make_unique<Vector>(c.V->points());
     const auto ids = c.V->unknown_ids();
@@ -126,8 +127,8 @@ class BoundSetting : public ::testing::TestWithParam<std::string> {
       }
       c.u[alpha] = c.V->complete(values, c.V->lift(c.problem.boundary[alpha], 0));
       c.residual[alpha] = std::make_unique<Vector>(c.V->map());
-      c.V->load(*c.problem.tension[alpha], *c.problem.force[alpha], c.problem.boundary[alpha], 0, *c.residual[alpha]);
-      c.V->forces(*c.problem.tension[alpha], c.u[alpha], forces);
+      method::load(*c.problem.form[alpha], *c.problem.force[alpha], c.problem.boundary[alpha], 0, *c.residual[alpha]);
+      method::apply(*c.problem.form[alpha], c.u[alpha], forces);
       c.residual[alpha]->update(-1, forces, alpha == 0 ? 1 : -1, D_lambda, 1);
     }
     return c;

@@ -35,7 +35,7 @@ struct Lifted {
     lift = std::make_unique<BoundaryLift>(*V, nodes, std::array<FieldPtr, 2>{scene::constant(1), scene::constant(2)}, boundary, held, 2);
   }
   mesh::Hierarchy levels;
-  std::unique_ptr<PolynomialSpace> V;
+  std::unique_ptr<Space> V;
   std::unique_ptr<BoundaryLift> lift;
 };
 

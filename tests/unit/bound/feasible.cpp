@@ -13,7 +13,7 @@ class Feasible : public ::testing::TestWithParam<Setting> {
   mesh::Hierarchy levels = square(1);
   const mesh::Mesh& mesh = levels.finest();
   const core::Comm& comm = mesh.comm;
-  std::unique_ptr<PolynomialSpace> V = make_space(mesh, GetParam());
+  std::unique_ptr<Space> V = make_space(mesh, GetParam());
   const int p = GetParam().degree;
 
   /// Energies and contact term of s by brute force.

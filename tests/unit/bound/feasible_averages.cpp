@@ -9,7 +9,7 @@ class Broken : public ::testing::TestWithParam<Setting> {
  protected:
   mesh::Hierarchy levels = square(1);
   const mesh::Mesh& mesh = levels.finest();
-  std::unique_ptr<PolynomialSpace> V = make_space(mesh, GetParam());
+  std::unique_ptr<Space> V = make_space(mesh, GetParam());
   const int p = GetParam().degree;
 
   /// A field whose values depend on the cell, not on the rank.
@@ -74,7 +74,7 @@ TEST_P(Broken, nothing_is_done_to_continuous_functions_with_polynomial_data) {
 TEST_P(Broken, parts_do_not_depend_on_the_ranks) {
   const auto g = scene::formula([](double x, double y) { return std::cos(x + 2 * y); });
   const auto u2 = scene::formula([](double x, double y) { return std::cos(x + 2 * y) - 0.2 + 2 * x * (1 - x) * y * (1 - y); });
-  const auto evaluated = [&](const mesh::Mesh& of, const PolynomialSpace& space, double(&sums)[4]) {
+  const auto evaluated = [&](const mesh::Mesh& of, const Space& space, double(&sums)[4]) {
     const auto jumping = [&](const FieldPtr& u, double jump) {
       const Coefficients c = interpolated(space, u);
       for (std::size_t k = 0; k < space.cells().extent(0); ++k)

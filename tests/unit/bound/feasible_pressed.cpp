@@ -22,7 +22,7 @@ Price price(const FeasiblePair& s, const Coefficients (&u)[2], const CellTable& 
 bool is_inside(const std::array<double, 2>& x) { return std::min({x[0], 1 - x[0], x[1], 1 - x[1]}) > 1e-9; }
 
 /// Quadratic functions that are `height` at the vertices inside of the square, `between` half the way between them, and 0 on the boundary.
-Coefficients at_vertices(const PolynomialSpace& V, double height, double between = 0) {
+Coefficients at_vertices(const Space& V, double height, double between = 0) {
   const Coefficients u = interpolated(V, scene::constant(0));
   const auto& entries = V.coefficients().element_entries;
   const int first = V.basis().interior();
@@ -36,7 +36,7 @@ class Pressed : public ::testing::TestWithParam<MethodName> {
  protected:
   mesh::Hierarchy levels = square(1);
   const mesh::Mesh& mesh = levels.finest();
-  std::unique_ptr<PolynomialSpace> V = make_space(mesh, {GetParam(), 2});
+  std::unique_ptr<Space> V = make_space(mesh, {GetParam(), 2});
   const FieldPtr zero = scene::constant(0);
   const FeasiblePair s{*V, two_membranes(mesh, zero, zero, scene::constant(1), scene::constant(3))};
   Coefficients lower = interpolated(*V, zero);
@@ -111,7 +111,7 @@ namespace {
 double height(double x, double y) { return 0.3 * std::sin(x + 2 * y) + 0.2 * x * x * x * x * x; }
 
 /// |||psi - psi_I|||², psi_I the interpolant.
-double energy_of_interpolation(const PolynomialSpace& V, const Coefficients& psi) {
+double energy_of_interpolation(const Space& V, const Coefficients& psi) {
   Sampler sample(V);
   double sum = 0;
   at_points(V.mesh(), 20, [&](double weight, const PointOfCell& at) {

@@ -21,7 +21,7 @@ namespace thixis::bound {
 using method::Coefficients;
 using method::MethodName;
 using method::Nodes;
-using method::PolynomialSpace;
+using method::Space;
 using scene::FieldPtr;
 
 inline mesh::Hierarchy square(int refinements) {
@@ -37,7 +37,7 @@ struct Setting {
   Nodes nodes = Nodes::gauss_lobatto;
 };
 
-inline std::unique_ptr<PolynomialSpace> make_space(const mesh::Mesh& mesh, const Setting& setting, const FieldPtr& level_set = nullptr) {
+inline std::unique_ptr<Space> make_space(const mesh::Mesh& mesh, const Setting& setting, const FieldPtr& level_set = nullptr) {
   method::MethodParams params;
   params.name = setting.name;
   params.degree = setting.degree;
@@ -46,8 +46,7 @@ inline std::unique_ptr<PolynomialSpace> make_space(const mesh::Mesh& mesh, const
   auto space = setting.name == MethodName::fem  ? fem::make_lagrange_space(mesh, options)
                : setting.name == MethodName::dg ? dg::make_space(mesh, options)
                                                 : hho::make_space(mesh, options);
-  auto* const polynomials = dynamic_cast<PolynomialSpace*>(space.release());
-  return std::unique_ptr<PolynomialSpace>(polynomials);
+  return space;
 }
 
 inline method::BoundaryValues everywhere(const mesh::Mesh& mesh, const FieldPtr& dirichlet) {
@@ -55,12 +54,12 @@ inline method::BoundaryValues everywhere(const mesh::Mesh& mesh, const FieldPtr&
 }
 
 /// Boundary data and interpolant of one function.
-inline Coefficients interpolated(const PolynomialSpace& V, const FieldPtr& u, const FieldPtr& boundary) {
+inline Coefficients interpolated(const Space& V, const FieldPtr& u, const FieldPtr& boundary) {
   algebra::Vector values(V.map());
   V.interpolate(*u, 0, values);
   return V.complete(values, V.lift(everywhere(V.mesh(), boundary), 0));
 }
-inline Coefficients interpolated(const PolynomialSpace& V, const FieldPtr& u) { return interpolated(V, u, u); }
+inline Coefficients interpolated(const Space& V, const FieldPtr& u) { return interpolated(V, u, u); }
 
 inline FeasiblePair::Problem two_membranes(const mesh::Mesh& mesh, const FieldPtr& g1, const FieldPtr& g2, const FieldPtr& mu1,
                                            const FieldPtr& mu2) {
@@ -128,7 +127,7 @@ struct Sample {
 };
 class Sampler {
  public:
-  explicit Sampler(const PolynomialSpace& V) : V_(V), host_(mesh::on_host(V.mesh())) {}
+  explicit Sampler(const Space& V) : V_(V), host_(mesh::on_host(V.mesh())) {}
   void at(const PointOfCell& place) {
     const double point[2] = {place.xi, place.eta};
     table_ = V_.basis().tabulate(1, point);
@@ -150,7 +149,7 @@ class Sampler {
   }
 
  private:
-  const PolynomialSpace& V_;
+  const Space& V_;
   mesh::HostMesh host_;
   reference::Tabulation table_;
   mesh::CellGeometry geometry_{};

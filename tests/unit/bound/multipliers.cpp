@@ -24,7 +24,7 @@ FieldPtr pressure(int p) {
 }
 
 /// D_l X3_l of a multiplier.
-algebra::Vector moments_of(const PolynomialSpace& V, const FieldPtr& lambda) {
+algebra::Vector moments_of(const Space& V, const FieldPtr& lambda) {
   algebra::Vector X3(V.points());
   V.interpolate_multiplier(*lambda, 0, X3);
   const auto values = algebra::host_view(X3);
@@ -63,17 +63,17 @@ TEST(PatchwiseMultiplier, reproduces_polynomials_of_degree_p_less_1_up_to_the_he
 namespace {
 
 /// dG with strong data, where functions of the boundary are held.
-std::unique_ptr<PolynomialSpace> strong(const mesh::Mesh& mesh, int p) {
+std::unique_ptr<Space> strong(const mesh::Mesh& mesh, int p) {
   method::MethodParams params;
   params.name = MethodName::dg;
   params.degree = p;
   params.boundary = method::BoundaryTreatment::strong;
   auto space = dg::make_space(mesh, {std::vector<bool>(mesh.tags.size(), true), nullptr, params});
-  return std::unique_ptr<PolynomialSpace>(dynamic_cast<PolynomialSpace*>(space.release()));
+  return space;
 }
 
 /// (lambda, psi_l)_K at the entries of a broken space.
-View<double*> moments_by_entry(const PolynomialSpace& V, const FieldPtr& lambda) {
+View<double*> moments_by_entry(const Space& V, const FieldPtr& lambda) {
   const auto& entries = V.coefficients().element_entries;
   const auto host = mesh::on_host(V.mesh());
   const auto rule = reference::triangle_quadrature(10);

@@ -17,7 +17,7 @@ class StepOfBound : public BoundSetting {
       const Coefficients rate("rate", c.u[alpha].extent(0));
       for (std::size_t e = 0; e < rate.extent(0); ++e) rate(e) = (c.u[alpha](e) - before.u[alpha](e)) / tau;
       Vector part(c.V->map());
-      c.V->apply_mass(rate, part);
+      method::apply(*method::mass(*c.V), rate, part);
       c.residual[alpha]->update(-1, part, 1);
     }
   }

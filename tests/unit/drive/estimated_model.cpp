@@ -99,7 +99,7 @@ class Estimated final : public models::Discretization {
 }  // namespace
 
 EstimatedModel::EstimatedModel(const RunParams& params)
-    : inner_(membranes::membranes(scene::membrane_scene(params.scene), fem::make_lagrange_space, params.method, params.linear, {})) {}
+    : inner_(membranes::membranes(scene::membrane_scene(params.scene), fem::lagrange(), params.method, params.linear, {})) {}
 
 std::unique_ptr<models::Discretization> EstimatedModel::discretize(const mesh::Hierarchy& hierarchy, int level) const {
   entered.push_back(level);

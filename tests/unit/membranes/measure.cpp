@@ -5,6 +5,7 @@
 
 #include "heights.hpp"
 #include "membrane_measure.hpp"
+#include "thixis/fem/forms.hpp"
 #include "thixis/fem/lagrange_space.hpp"
 #include "thixis/mesh/build.hpp"
 
@@ -34,14 +35,16 @@ class Measure : public ::testing::Test {
     const method::BoundaryValues held = {std::vector<FieldPtr>(mesh().tags.size(), g), std::vector<FieldPtr>(mesh().tags.size())};
     method::Coefficients lift[2];
     Teuchos::RCP<Vector> body[2];
+    std::array<method::FormPtr, 2> form;
     for (int alpha = 0; alpha < scene.count; ++alpha) {
       scene.tension[alpha] = scene::constant(mu[alpha]);
       scene.force[alpha] = f[alpha];
       lift[alpha] = space_->lift(held, 0);
       body[alpha] = Teuchos::rcp(new Vector(space_->map()));
-      space_->load(*scene.tension[alpha], *f[alpha], held, 0, *body[alpha]);
+      form[alpha] = fem::diffusion(*space_, scene.tension[alpha]);
+      method::load(*form[alpha], *f[alpha], held, 0, *body[alpha]);
     }
-    return membrane_operator(scene, *space_, {}, lift, body);
+    return membrane_operator(scene, fem::lagrange(), form, {}, lift, body);
   }
   /// All membranes at one height.
   MultiVector at(const MembraneOperator& membranes, double height) const {

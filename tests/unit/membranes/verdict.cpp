@@ -32,8 +32,8 @@ constexpr Kind all_kinds[] = {{"discontinuous multiplier", MethodName::fem, 1}, 
                               {"radial obstacle", MethodName::fem, 2},          {"radial obstacle", MethodName::dg, 1},
                               {"radial obstacle", MethodName::hho, 2}};
 
-method::SpaceFactory factory(MethodName name) {
-  return name == MethodName::fem ? fem::make_lagrange_space : name == MethodName::dg ? dg::make_space : hho::make_space;
+method::Method method_of(MethodName name) {
+  return name == MethodName::fem ? fem::lagrange() : name == MethodName::dg ? dg::interior_penalty() : hho::hybrid();
 }
 
 enum Field { u1, u2, lambda };
@@ -57,7 +57,7 @@ class Verdict : public ::testing::TestWithParam<Kind> {
     method.degree = GetParam().degree;
     algebra::LinearParams linear;
     linear.solver = algebra::SolverKind::direct;
-    model_ = membranes(scene::membrane_scene(scene), factory(method.name), method, linear, {});
+    model_ = membranes(scene::membrane_scene(scene), method_of(method.name), method, linear, {});
     discretization_ = model_->discretize(levels_, static_cast<int>(levels_.levels.size()) - 1);
     X_ = discretization_->cold_start();
     report_ = complementarity::newton(discretization_->problem(), *X_, {}, {}, 10);

@@ -113,13 +113,14 @@ std::size_t allocations_on(int level, const method::MethodParams& method, const 
       [](Kokkos_Profiling_SpaceHandle, const char*, const void*, const std::uint64_t) { ++allocations; });
   allocations = 0;
   {
-    const auto space = factory(method.name)(mesh, {std::vector<bool>(mesh.tags.size(), true), nullptr, method});
+    const method::Method chosen = method_of(method.name);
+    const auto space = chosen.make_space(mesh, {std::vector<bool>(mesh.tags.size(), true), nullptr, method});
     Vector F(space->map());
-    space->load(*scene.tension[0], *scene.force[0], boundary, 0, F);
-    const auto S = space->stiffness(*scene.tension[0]);
+    method::load(*chosen.diffusion(*space, scene.tension[0]), *scene.force[0], boundary, 0, F);
+    const auto S = method::assemble(*chosen.diffusion(*space, scene.tension[0]));
     const auto u = space->complete(F, space->lift(boundary, 0));
-    space->forces(*scene.tension[0], u, F);
-    space->energy_error(*scene.tension[0], u, {scene::constant(0), scene::constant(0)}, 0);
+    method::apply(*chosen.diffusion(*space, scene.tension[0]), u, F);
+    method::energy_error(*chosen.diffusion(*space, scene.tension[0]), u, {method::Known{{scene::constant(0), scene::constant(0)}}}, 0);
   }
   Kokkos::Tools::Experimental::set_allocate_data_callback(nullptr);
   return allocations;

@@ -19,21 +19,21 @@ void solve_directly(drive::RunParams& params) {
 
 }  // namespace
 
-method::SpaceFactory factory(method::MethodName name) {
+method::Method method_of(method::MethodName name) {
   switch (name) {
     case method::MethodName::dg:
-      return dg::make_space;
+      return dg::interior_penalty();
     case method::MethodName::hho:
-      return hho::make_space;
+      return hho::hybrid();
     default:
-      return fem::make_lagrange_space;
+      return fem::lagrange();
   }
 }
 
 Solved solve(const drive::RunParams& params, const core::Comm& comm, const drive::Observer& observer) {
   Solved run;
   run.hierarchy = mesh::build(params.mesh, comm, INPUTS);
-  run.model = membranes::membranes(scene::membrane_scene(params.scene), factory(params.method.name), params.method, params.linear, {});
+  run.model = membranes::membranes(scene::membrane_scene(params.scene), method_of(params.method.name), params.method, params.linear, {});
   run.model->check(run.hierarchy.finest(), {});
   run.outcome = drive::solve_stationary(*run.model, run.hierarchy, params, observer);
   return run;

@@ -6,6 +6,7 @@
 
 #include "thixis/algebra/tpetra.hpp"
 #include "thixis/drive/stationary.hpp"
+#include "thixis/method/form.hpp"
 
 namespace thixis::verification {
 
@@ -33,7 +34,7 @@ drive::RunParams pressed(const std::string& mu1, const std::string& mu2, int lev
 method::MethodParams by(method::MethodName name, int degree, method::Nodes nodes = method::Nodes::gauss_lobatto);
 
 /// The spaces of a method.
-method::SpaceFactory factory(method::MethodName name);
+method::Method method_of(method::MethodName name);
 
 /// All methods of one degree, each with its name for messages: fem, sipg, nipg, hho.
 std::vector<std::pair<std::string, method::MethodParams>> all_methods(int degree);

@@ -15,14 +15,14 @@
 namespace thixis::verification {
 namespace {
 
-method::SpaceFactory factory(method::MethodName name) {
+method::Method method_of(method::MethodName name) {
   switch (name) {
     case method::MethodName::dg:
-      return dg::make_space;
+      return dg::interior_penalty();
     case method::MethodName::hho:
-      return hho::make_space;
+      return hho::hybrid();
     default:
-      return fem::make_lagrange_space;
+      return fem::lagrange();
   }
 }
 
@@ -52,7 +52,7 @@ double March::error_at_ends(double step) const {
 March march(const drive::RunParams& params, int steps, double end, const AtStep& at_step, const core::Comm& comm) {
   March run;
   run.model =
-      membranes::parabolic_membranes(scene::membrane_scene(params.scene), factory(params.method.name), params.method, params.linear);
+      membranes::parabolic_membranes(scene::membrane_scene(params.scene), method_of(params.method.name), params.method, params.linear);
   run.evolution = run.model->evolve(params.mesh, comm, "", {});
   models::Evolution& evolution = *run.evolution;
   run.X = evolution.initial();

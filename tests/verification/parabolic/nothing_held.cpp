@@ -67,8 +67,8 @@ TEST(NothingHeld, has_a_bound) {
   for (const auto& [method, degree] : {std::pair(MethodName::fem, 1), std::pair(MethodName::fem, 2), std::pair(MethodName::hho, 1)})
     for (const double disturbance : {0.0, 1e-2}) {
       const auto params = sinking(method, degree);
-      const auto make = method == MethodName::hho ? hho::make_space : fem::make_lagrange_space;
-      const auto model = membranes::parabolic_membranes(scene::membrane_scene(params.scene), make, params.method, params.linear);
+      const auto chosen = method == MethodName::hho ? hho::hybrid() : fem::lagrange();
+      const auto model = membranes::parabolic_membranes(scene::membrane_scene(params.scene), chosen, params.method, params.linear);
       const auto evolution = model->evolve(params.mesh, core::Comm(), "", {});
       auto X = evolution->initial();
       for (int n = 1; n <= 4; ++n) {

@@ -20,7 +20,7 @@ struct Look {
   bool resolved() const { return fine <= 2 * gauss + 1e-24 * size; }
 };
 
-Look look(const method::PolynomialSpace& space, const scene::Field& force, double begin, double end) {
+Look look(const method::Space& space, const scene::Field& force, double begin, double end) {
   const auto& mesh = space.mesh();
   const GlobalIndex stride = 1 + (mesh.global_cells - 1) / most_looked_at;
   std::vector<double> x, y;
@@ -53,7 +53,7 @@ Look look(const method::PolynomialSpace& space, const scene::Field& force, doubl
 }
 
 /// Gauss' rule with three points on each of so many parts of the step.
-double integral(const method::PolynomialSpace& space, const scene::Field& force, double begin, double end, int pieces) {
+double integral(const method::Space& space, const scene::Field& force, double begin, double end, int pieces) {
   const auto& quadrature = space.quadrature();
   const LocalIndex owned = space.mesh().owned_cells;
   const View<double*> at_end("thixis::bound::force_at_end", quadrature.largest_block),
@@ -79,7 +79,7 @@ double integral(const method::PolynomialSpace& space, const scene::Field& force,
 
 }  // namespace
 
-ForceChange change_of_force(const method::PolynomialSpace& space, const scene::Field& force, double begin, double end) {
+ForceChange change_of_force(const method::Space& space, const scene::Field& force, double begin, double end) {
   if (force.steady()) return {};
   const core::Comm& comm = space.mesh().comm;
   Look seen;

@@ -1,5 +1,5 @@
 #pragma once
-#include "thixis/method/polynomial_space.hpp"
+#include "thixis/method/space.hpp"
 
 namespace thixis::bound {
 
@@ -11,6 +11,6 @@ struct ForceChange {
 
 /// By Gauss' rule with three points in time, exact where f is of degree 2 in t; and where that sees less than half of what the middles of
 /// 32 parts do, as of a pulse between its points, by the same rule on each part. Collective.
-ForceChange change_of_force(const method::PolynomialSpace& space, const scene::Field& force, double begin, double end);
+ForceChange change_of_force(const method::Space& space, const scene::Field& force, double begin, double end);
 
 }  // namespace thixis::bound

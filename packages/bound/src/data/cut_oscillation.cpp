@@ -95,7 +95,7 @@ class Flux {
 
 }  // namespace
 
-CutOscillation::CutOscillation(const method::PolynomialSpace& space, int q, const scene::FieldPtr& interface, double time)
+CutOscillation::CutOscillation(const method::Space& space, int q, const scene::FieldPtr& interface, double time)
     : comm_(space.mesh().comm), q_(q) {
   const mesh::Mesh& mesh = space.mesh();
   const auto own = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), space.quadrature().own_rule);

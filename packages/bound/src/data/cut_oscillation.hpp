@@ -2,7 +2,7 @@
 #include <vector>
 
 #include "thixis/bound/cell_fields.hpp"
-#include "thixis/method/polynomial_space.hpp"
+#include "thixis/method/space.hpp"
 
 namespace thixis::bound {
 
@@ -19,7 +19,7 @@ constexpr double poincare = 1 / 3.831705970207512;
 /// the interface cuts no cell. Collective.
 class CutOscillation {
  public:
-  CutOscillation(const method::PolynomialSpace& space, int q, const scene::FieldPtr& interface, double time);
+  CutOscillation(const method::Space& space, int q, const scene::FieldPtr& interface, double time);
   /// Lowers the entries of `bound` (owned cells, not yet divided by the root of the tension) where this is less. Collective.
   void sharpen(const scene::Field& force, double time, std::vector<double>& bound) const;
 

@@ -25,7 +25,7 @@ struct PointValues {
 };
 
 /// force(k, ·) and the squares |f - Pi_q f|²_K of the owned cells.
-void project(const method::PolynomialSpace& space, int q, const scene::Field& force, double time, const CellTable& out,
+void project(const method::Space& space, int q, const scene::Field& force, double time, const CellTable& out,
              std::vector<double>& oscillation) {
   const auto& quadrature = space.quadrature();
   const PointValues values(q + 1, quadrature);
@@ -67,7 +67,7 @@ void project(const method::PolynomialSpace& space, int q, const scene::Field& fo
 }
 
 /// Moments of -psi_a t on the faces of the boundary that have Neumann data, and |t - Pi_q t|²_F.
-void project_traction(const method::PolynomialSpace& space, int q, const scene::Field& t, double time, LocalIndex tag, int order,
+void project_traction(const method::Space& space, int q, const scene::Field& t, double time, LocalIndex tag, int order,
                       const CellTable::HostMirror& traction, std::vector<double>& rest) {
   const mesh::Mesh& mesh = space.mesh();
   const auto host = mesh::on_host(mesh);
@@ -128,7 +128,7 @@ std::vector<bool> held_tags(const method::BoundaryValues& boundary) {
   return held;
 }
 
-Sources sources(const method::PolynomialSpace& space, int q, const scene::Field& force, const method::BoundaryValues& boundary, double time,
+Sources sources(const method::Space& space, int q, const scene::Field& force, const method::BoundaryValues& boundary, double time,
                 const CutOscillation* cut_cells, const std::vector<double>& least_tension) {
   const mesh::Mesh& mesh = space.mesh();
   const auto host = mesh::on_host(mesh);

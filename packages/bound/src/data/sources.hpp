@@ -2,7 +2,7 @@
 #include <vector>
 
 #include "data/cut_oscillation.hpp"
-#include "thixis/method/polynomial_space.hpp"
+#include "thixis/method/space.hpp"
 
 namespace thixis::bound {
 
@@ -21,7 +21,7 @@ struct Sources {
 ///
 /// as (that constant)^{1/2} mu^{-1/2} |t - Pi_q t|_F. mu: its least value in the cell. `time`: of the data. `cut_cells`: null where nothing
 /// asks for the sharp oscillation. Collective.
-Sources sources(const method::PolynomialSpace& space, int q, const scene::Field& force, const method::BoundaryValues& boundary, double time,
+Sources sources(const method::Space& space, int q, const scene::Field& force, const method::BoundaryValues& boundary, double time,
                 const CutOscillation* cut_cells, const std::vector<double>& least_tension);
 
 /// Longest side of a cell, and of each owned cell.

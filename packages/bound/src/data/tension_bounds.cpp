@@ -27,7 +27,7 @@ struct Fit {
 };
 
 /// (cell, k): Bernstein coefficients of a polynomial in the owned cells. Throws on this rank only.
-std::vector<double> coefficients(const method::PolynomialSpace& space, const scene::Field& field, const reference::CellBasis& basis) {
+std::vector<double> coefficients(const method::Space& space, const scene::Field& field, const reference::CellBasis& basis) {
   const auto host = mesh::on_host(space.mesh());
   const LocalIndex owned = space.mesh().owned_cells;
   const int n = basis.size();
@@ -62,7 +62,7 @@ void bound_inverse(const method::CellQuadrature& quadrature, LocalIndex K, const
   }
 }
 
-TensionBounds at_points(const method::PolynomialSpace& space, const scene::Field& tension) {
+TensionBounds at_points(const method::Space& space, const scene::Field& tension) {
   const LocalIndex owned = space.mesh().owned_cells;
   const auto& quadrature = space.quadrature();
   const auto mu = method::tension_at_points(space.mesh(), quadrature, tension);
@@ -79,7 +79,7 @@ TensionBounds at_points(const method::PolynomialSpace& space, const scene::Field
 
 }  // namespace
 
-TensionBounds tension_bounds(const method::PolynomialSpace& space, const scene::Field& tension) {
+TensionBounds tension_bounds(const method::Space& space, const scene::Field& tension) {
   const LocalIndex owned = space.mesh().owned_cells;
   if (const double* constant = tension.constant())
     return {std::vector<double>(owned, *constant), std::vector<double>(owned, *constant), {}, {}, true};

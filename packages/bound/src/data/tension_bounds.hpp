@@ -2,7 +2,7 @@
 #include <vector>
 
 #include "thixis/bound/cell_fields.hpp"
-#include "thixis/method/polynomial_space.hpp"
+#include "thixis/method/space.hpp"
 
 namespace thixis::bound {
 
@@ -17,6 +17,6 @@ struct TensionBounds {
 };
 
 /// Collective; throws InputError where the tension is not positive at a quadrature point.
-TensionBounds tension_bounds(const method::PolynomialSpace& space, const scene::Field& tension);
+TensionBounds tension_bounds(const method::Space& space, const scene::Field& tension);
 
 }  // namespace thixis::bound

@@ -10,7 +10,7 @@
 
 namespace thixis::bound {
 
-BoundParts::BoundParts(const method::PolynomialSpace& of, const ContactProblem& contact, const mesh::Hierarchy& hierarchy, int level)
+BoundParts::BoundParts(const method::Space& of, const ContactProblem& contact, const mesh::Hierarchy& hierarchy, int level)
     : space(of),
       problem(contact),
       q(of.flux_degree()),

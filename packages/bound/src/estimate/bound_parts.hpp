@@ -17,7 +17,7 @@ constexpr double negligible = 1e-4;
 
 /// What bounds of stationary problems and of steps in time are made of on a mesh: fluxes, a multiplier, a feasible pair.
 struct BoundParts {
-  const method::PolynomialSpace& space;
+  const method::Space& space;
   ContactProblem problem;
   const int q;  ///< of the fluxes
   const std::vector<bool> held;
@@ -34,7 +34,7 @@ struct BoundParts {
   std::vector<std::string> doubts;   ///< what keeps the bound from being guaranteed, but for time
 
   /// Collective.
-  BoundParts(const method::PolynomialSpace& of, const ContactProblem& contact, const mesh::Hierarchy& hierarchy, int level);
+  BoundParts(const method::Space& of, const ContactProblem& contact, const mesh::Hierarchy& hierarchy, int level);
   BoundParts(const BoundParts&) = delete;
   BoundParts& operator=(const BoundParts&) = delete;
 

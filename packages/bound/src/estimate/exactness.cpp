@@ -30,7 +30,7 @@ std::string needs_order(const std::string& name, int degree, int order, int high
 /// Collects the clauses.
 class Examination {
  public:
-  Examination(const method::PolynomialSpace& space, int q, Interface interface, bool lift)
+  Examination(const method::Space& space, int q, Interface interface, bool lift)
       : highest_(reference::max_quadrature_order - (interface == Interface::cuts ? 1 : 0)),
         order_(std::min(space.quadrature().order, highest_)),
         p_(space.basis().degree()),
@@ -90,14 +90,14 @@ class Examination {
 };
 
 /// Collective.
-Interface interface_of(const method::PolynomialSpace& space, const ContactProblem& problem) {
+Interface interface_of(const method::Space& space, const ContactProblem& problem) {
   if (space.mesh().comm.any(space.quadrature().cut_cells() > 0)) return Interface::cuts;
   return problem.interface && problem.interface->constant() == nullptr ? Interface::unseen : Interface::none;
 }
 
 }  // namespace
 
-std::vector<std::string> doubts(const method::PolynomialSpace& space, const ContactProblem& problem, int q, const bool (&proved)[2],
+std::vector<std::string> doubts(const method::Space& space, const ContactProblem& problem, int q, const bool (&proved)[2],
                                 const FeasiblePair& pair) {
   Examination examine(space, q, interface_of(space, problem), pair.boundary_energy() > 0);
   for (int alpha = 0; alpha < problem.count; ++alpha) {
@@ -134,7 +134,7 @@ std::vector<std::string> doubts_in_time(const ContactProblem& problem, const Fea
   return clauses;
 }
 
-std::vector<std::string> doubts_at_start(const method::PolynomialSpace& space, int alpha, const scene::Field& initial) {
+std::vector<std::string> doubts_at_start(const method::Space& space, int alpha, const scene::Field& initial) {
   const auto degree = initial.degree();
   const std::string name = fmt::format("the initial height {}", alpha + 1);
   if (!degree || !degree->whole) return {name + " is not known to be a polynomial"};

@@ -71,8 +71,7 @@ Estimate GuaranteedBound::Impl::sum_up() {
   return eta;
 }
 
-GuaranteedBound::GuaranteedBound(const method::PolynomialSpace& space, const ContactProblem& problem, const mesh::Hierarchy& hierarchy,
-                                 int level)
+GuaranteedBound::GuaranteedBound(const method::Space& space, const ContactProblem& problem, const mesh::Hierarchy& hierarchy, int level)
     : impl_(new Impl{{space, problem, hierarchy, level}}) {}
 GuaranteedBound::~GuaranteedBound() = default;
 

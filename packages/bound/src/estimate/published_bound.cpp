@@ -23,7 +23,7 @@ using method::Coefficients;
 constexpr double pi = 3.14159265358979323846;
 
 /// What belongs to vertex i of patch cell k: the density of lambda_h(a) psi_a for p = 1, of lambda_h psi_a otherwise.
-CellTable of_vertices(const method::PolynomialSpace& space, const Coefficients& lambda, int q) {
+CellTable of_vertices(const method::Space& space, const Coefficients& lambda, int q) {
   const auto& basis = space.basis();
   const int functions = basis.size(), n = reference::dimension(q);
   const reference::Modal modal(basis.degree());
@@ -57,7 +57,7 @@ struct Integrals {
   double contact = 0, whole = 0;      ///< (lambda^pos, g), (lambda, g)
 };
 
-Integrals integrals(const method::PolynomialSpace& space, const Coefficients& lambda, const Coefficients& other, const Coefficients& gap) {
+Integrals integrals(const method::Space& space, const Coefficients& lambda, const Coefficients& other, const Coefficients& gap) {
   const auto& basis = space.basis();
   const auto rule = reference::triangle_quadrature(reference::max_quadrature_order);
   const auto table = basis.tabulate(rule.size(), rule.point.data());
@@ -89,7 +89,7 @@ Integrals integrals(const method::PolynomialSpace& space, const Coefficients& la
 }
 
 /// What closing the gap adds to it: -min(·, 0) of its coefficients in this basis (matrix: coefficients -> those), back in the space.
-Coefficients closing(const method::PolynomialSpace& space, const Coefficients& gap, const std::vector<double>& to) {
+Coefficients closing(const method::Space& space, const Coefficients& gap, const std::vector<double>& to) {
   const int n = space.basis().size();
   const auto from = reference::inverse(n, to);
   const auto entries = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), space.coefficients().element_entries);
@@ -120,8 +120,7 @@ std::vector<double> identity(int n) {
 
 class Evaluation {
  public:
-  Evaluation(const method::PolynomialSpace& space, const ContactProblem& problem, const Iterate& iterate, const Coefficients& gap,
-             double friedrichs)
+  Evaluation(const method::Space& space, const ContactProblem& problem, const Iterate& iterate, const Coefficients& gap, double friedrichs)
       : space_(space), problem_(problem), iterate_(iterate), gap_(gap), q_(space.flux_degree()) {
     double inverse = 0;
     for (int alpha = 0; alpha < problem.count; ++alpha) {
@@ -219,11 +218,11 @@ class Evaluation {
 
   /// |||theta_1 c||| + … of both membranes giving way to close the gap by c.
   double energy(const Coefficients& c) const {
-    if (problem_.count == 1) return std::sqrt(space_.energy(*problem_.tension[0], c));
+    if (problem_.count == 1) return std::sqrt(method::energy(*problem_.form[0], c));
     double sum = 0;
     for (int alpha = 0; alpha < 2; ++alpha) {
       const double theta = smallest_[1 - alpha] / (smallest_[0] + smallest_[1]);
-      sum += theta * theta * space_.energy(*problem_.tension[alpha], c);
+      sum += theta * theta * method::energy(*problem_.form[alpha], c);
     }
     return std::sqrt(sum);
   }
@@ -239,7 +238,7 @@ class Evaluation {
     return difference;
   }
 
-  const method::PolynomialSpace& space_;
+  const method::Space& space_;
   const ContactProblem& problem_;
   const Iterate& iterate_;
   const Coefficients& gap_;
@@ -254,8 +253,8 @@ class Evaluation {
 
 }  // namespace
 
-PublishedBound published_bound(const method::PolynomialSpace& space, const ContactProblem& problem, const mesh::Hierarchy& hierarchy,
-                               int level, const Iterate& iterate, const Coefficients& gap, double friedrichs) {
+PublishedBound published_bound(const method::Space& space, const ContactProblem& problem, const mesh::Hierarchy& hierarchy, int level,
+                               const Iterate& iterate, const Coefficients& gap, double friedrichs) {
   return Evaluation(space, problem, iterate, gap, friedrichs)(hierarchy, level);
 }
 

@@ -19,7 +19,7 @@ struct Mean {
 
 }  // namespace
 
-Averages::Averages(const method::PolynomialSpace& space, const ContinuousNodes& nodes) {
+Averages::Averages(const method::Space& space, const ContinuousNodes& nodes) {
   const auto node = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), nodes.of_cells);
   const auto of_u = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), space.coefficients().element_entries);
   const LocalIndex count = nodes.entries.size();

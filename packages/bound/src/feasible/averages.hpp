@@ -7,7 +7,7 @@ namespace thixis::bound {
 /// data where they hold it (Oswald). Right at the nodes of owned cells: all their cells are patch cells.
 class Averages {
  public:
-  Averages(const method::PolynomialSpace& space, const ContinuousNodes& nodes);
+  Averages(const method::Space& space, const ContinuousNodes& nodes);
   /// `held`: coefficients of the data, by node. Overwrites `average`.
   void operator()(const method::Coefficients& u, const View<const double*>& held, const View<double*>& average) const;
 

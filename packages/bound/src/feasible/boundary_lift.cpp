@@ -163,9 +163,9 @@ struct BoundaryLift::Equations {
 
 BoundaryLift::~BoundaryLift() = default;
 
-BoundaryLift::BoundaryLift(const method::PolynomialSpace& space, const ContinuousNodes& nodes,
-                           const std::array<scene::FieldPtr, 2>& tension, const std::array<method::BoundaryValues, 2>& boundary,
-                           const std::vector<double> (&held)[2], int count, double time, const BoundaryLift* other)
+BoundaryLift::BoundaryLift(const method::Space& space, const ContinuousNodes& nodes, const std::array<scene::FieldPtr, 2>& tension,
+                           const std::array<method::BoundaryValues, 2>& boundary, const std::vector<double> (&held)[2], int count,
+                           double time, const BoundaryLift* other)
     : space_(space), host_(mesh::on_host(space.mesh())), count_(count), time_(time), basis_(degree_of_v, reference::Family::bernstein) {
   for (const auto& value : boundary[0].dirichlet) dirichlet_.push_back(value != nullptr);
   const core::Comm& comm = space.mesh().comm;

@@ -21,7 +21,7 @@ class BoundaryLift {
  public:
   /// Of the data at `time`. `held`: coefficients of g_h on `nodes`. `other`: a lift of these data at another time, whose equations are
   /// taken over. Collective.
-  BoundaryLift(const method::PolynomialSpace& space, const ContinuousNodes& nodes, const std::array<scene::FieldPtr, 2>& tension,
+  BoundaryLift(const method::Space& space, const ContinuousNodes& nodes, const std::array<scene::FieldPtr, 2>& tension,
                const std::array<method::BoundaryValues, 2>& boundary, const std::vector<double> (&held)[2], int count, double time = 0,
                const BoundaryLift* other = nullptr);
   ~BoundaryLift();
@@ -71,7 +71,7 @@ class BoundaryLift {
 
   struct Equations;
 
-  const method::PolynomialSpace& space_;
+  const method::Space& space_;
   mesh::HostMesh host_;
   int count_;
   double time_;

@@ -21,7 +21,7 @@ void evaluate_at(const method::Entries& entries, const std::vector<LocalIndex>& 
 
 }  // namespace
 
-std::vector<double> boundary_coefficients(const method::PolynomialSpace& space, const ContinuousNodes& nodes,
+std::vector<double> boundary_coefficients(const method::Space& space, const ContinuousNodes& nodes,
                                           const std::vector<scene::FieldPtr>& by_tag, double time) {
   const method::Entries& entries = nodes.entries;
   std::vector<double> values(entries.size(), 0.0);
@@ -47,7 +47,7 @@ std::vector<double> boundary_coefficients(const method::PolynomialSpace& space, 
   return coefficients;
 }
 
-std::vector<double> obstacle_coefficients(const method::PolynomialSpace& space, const ContinuousNodes& nodes, const scene::Field& psi,
+std::vector<double> obstacle_coefficients(const method::Space& space, const ContinuousNodes& nodes, const scene::Field& psi,
                                           const method::Jumps& jumps) {
   std::vector<LocalIndex> all(nodes.entries.size());
   for (LocalIndex e = 0; e < nodes.entries.size(); ++e) all[e] = e;
@@ -58,7 +58,7 @@ std::vector<double> obstacle_coefficients(const method::PolynomialSpace& space, 
   return values;
 }
 
-std::vector<double> majorant(const method::PolynomialSpace& space, const ContinuousNodes& nodes, const method::Jumps& jumps,
+std::vector<double> majorant(const method::Space& space, const ContinuousNodes& nodes, const method::Jumps& jumps,
                              const std::vector<double>& psi, const std::vector<double>& above) {
   if (!jumps.any()) return {};
   const reference::CellBasis& basis = space.basis();

@@ -88,8 +88,7 @@ View<LocalIndex*> nowhere(const mesh::Mesh& mesh) {
 
 }  // namespace
 
-Deviation deviation_of_membranes(const method::PolynomialSpace& space, const BoundaryLift& lift, const std::vector<bool>& dirichlet,
-                                 double noise) {
+Deviation deviation_of_membranes(const method::Space& space, const BoundaryLift& lift, const std::vector<bool>& dirichlet, double noise) {
   if (lift.empty()) return {};
   const mesh::Mesh& mesh = space.mesh();
   const auto& cells = lift.cells();
@@ -122,7 +121,7 @@ Deviation deviation_of_membranes(const method::PolynomialSpace& space, const Bou
   return deviation;
 }
 
-Deviation deviation_of_obstacle(const method::PolynomialSpace& space, const BoundaryLift& lift, const ContinuousNodes& nodes,
+Deviation deviation_of_obstacle(const method::Space& space, const BoundaryLift& lift, const ContinuousNodes& nodes,
                                 const scene::FieldPtr& obstacle, const std::vector<double>& psi, const method::Jumps& jumps,
                                 const std::vector<bool>& dirichlet) {
   const mesh::Mesh& mesh = space.mesh();
@@ -261,7 +260,7 @@ Deviation deviation_of_obstacle(const method::PolynomialSpace& space, const Boun
   return deviation;
 }
 
-Excess excess_of_majorant(const method::PolynomialSpace& space, const ContinuousNodes& nodes, const scene::Field& obstacle,
+Excess excess_of_majorant(const method::Space& space, const ContinuousNodes& nodes, const scene::Field& obstacle,
                           const std::vector<double>& majorant, const method::Jumps& jumps) {
   const mesh::Mesh& mesh = space.mesh();
   std::vector<LocalIndex> positions;

@@ -17,7 +17,7 @@ namespace thixis::bound {
 namespace {
 
 /// Those of the space itself where it has continuous functions.
-ContinuousNodes nodes_of(const method::PolynomialSpace& space, const std::vector<bool>& dirichlet) {
+ContinuousNodes nodes_of(const method::Space& space, const std::vector<bool>& dirichlet) {
   if (!space.conforming()) return continuous_nodes(space.mesh(), space.cells(), space.basis(), space.basis().points(), dirichlet);
   ContinuousNodes nodes{space.coefficients().entries, space.coefficients().element_entries};
   nodes.entries.held = space.numbering().held;
@@ -25,8 +25,7 @@ ContinuousNodes nodes_of(const method::PolynomialSpace& space, const std::vector
 }
 
 /// theta_1 = mu_2/(mu_1 + mu_2) at the nodes; for Bernstein coefficients at the places of the regular lattice.
-std::vector<double> shares(const method::PolynomialSpace& space, const ContinuousNodes& nodes,
-                           const std::array<scene::FieldPtr, 2>& tension) {
+std::vector<double> shares(const method::Space& space, const ContinuousNodes& nodes, const std::array<scene::FieldPtr, 2>& tension) {
   const auto host = mesh::on_host(space.mesh());
   const auto of_cells = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), nodes.of_cells);
   const auto cells = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), space.cells());
@@ -151,7 +150,7 @@ struct NegativePartInTime {
 }  // namespace
 
 struct FeasiblePair::Impl {
-  Impl(const method::PolynomialSpace& space_, const Problem& problem_)
+  Impl(const method::Space& space_, const Problem& problem_)
       : space(space_), problem(problem_), nodes(nodes_of(space, held_tags(problem.boundary[0]))), monomials(density_monomials()) {
     set_tensions();
     set_kernel();
@@ -290,7 +289,7 @@ struct FeasiblePair::Impl {
     return 1e-13 * space.mesh().comm.max(size);
   }
 
-  const method::PolynomialSpace& space;
+  const method::Space& space;
   Problem problem;
   ContinuousNodes nodes;
   method::Jumps jumps;  ///< of the obstacle
@@ -305,7 +304,7 @@ struct FeasiblePair::Impl {
   std::unique_ptr<Pressing> known_pressing;
 };
 
-FeasiblePair::FeasiblePair(const method::PolynomialSpace& space, const Problem& problem) : impl_(std::make_unique<Impl>(space, problem)) {}
+FeasiblePair::FeasiblePair(const method::Space& space, const Problem& problem) : impl_(std::make_unique<Impl>(space, problem)) {}
 FeasiblePair::FeasiblePair(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 FeasiblePair::~FeasiblePair() = default;
 
@@ -367,7 +366,7 @@ FeasiblePair::Continuous FeasiblePair::continuous(const method::Coefficients (&u
 }
 
 FeasiblePair::Way FeasiblePair::way(const method::Coefficients (&u)[2], const Continuous& s_c) const {
-  const method::PolynomialSpace& space = impl_->space;
+  const method::Space& space = impl_->space;
   const LocalIndex cells = space.mesh().owned_cells;
   const int n = space.basis().size(), count = impl_->problem.count;
   const FeasibleParts& kernel = impl_->kernel;
@@ -450,7 +449,7 @@ void FeasiblePair::change_of_move(const CellTable& gap, const View<double* [2]>&
 }
 
 FeasiblePair::Bulge FeasiblePair::bulge(const FeasiblePair& before, const FeasiblePair& after) const {
-  const method::PolynomialSpace& space = impl_->space;
+  const method::Space& space = impl_->space;
   const core::Comm& comm = space.mesh().comm;
   const int count = impl_->problem.count, n = space.basis().size();
   std::vector<double> d[2];

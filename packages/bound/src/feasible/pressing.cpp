@@ -58,7 +58,7 @@ bool is_open(const FeasibleParts& kernel, LocalIndex K) {
 
 }  // namespace
 
-Pressing::Pressing(const method::PolynomialSpace& space, const FeasibleParts& kernel, const std::vector<bool>& dirichlet,
+Pressing::Pressing(const method::Space& space, const FeasibleParts& kernel, const std::vector<bool>& dirichlet,
                    const std::vector<bool>& keeps)
     : mesh_(space.mesh()) {
   const reference::CellBasis& basis = space.basis();

@@ -19,8 +19,7 @@ namespace thixis::bound {
 class Pressing {
  public:
   /// `keeps`: by local vertex, not to follow D. Collective; the space must outlive it.
-  Pressing(const method::PolynomialSpace& space, const FeasibleParts& kernel, const std::vector<bool>& dirichlet,
-           const std::vector<bool>& keeps);
+  Pressing(const method::Space& space, const FeasibleParts& kernel, const std::vector<bool>& dirichlet, const std::vector<bool>& keeps);
   ~Pressing();
   /// kernel: with s_c and lambda, the densities on the owned cells. Overwrites closed and followed. Collective.
   void operator()(const FeasibleParts& kernel);

@@ -8,7 +8,7 @@ namespace thixis::bound {
 
 bool vanishes(const algebra::Vector& v) { return v.normInf() == 0; }
 
-CellShares::CellShares(const method::PolynomialSpace& space, int q)
+CellShares::CellShares(const method::Space& space, int q)
     : space_(space),
       n_(reference::dimension(q)),
       moments_("thixis::bound::moments", space.cells().extent(0), space.basis().size()),

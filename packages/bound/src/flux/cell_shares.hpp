@@ -1,18 +1,18 @@
 #pragma once
 #include "thixis/algebra/fwd.hpp"
 #include "thixis/bound/cell_fields.hpp"
-#include "thixis/method/polynomial_space.hpp"
+#include "thixis/method/space.hpp"
 
 namespace thixis::bound {
 
 bool vanishes(const algebra::Vector& v);
 
-/// Functionals R on the space, shared out to the patch cells (PolynomialSpace::share), and the polynomial r in every cell that has these
+/// Functionals R on the space, shared out to the patch cells (Space::share), and the polynomial r in every cell that has these
 /// moments, (r, psi_l)_K = moments(k, l), projected on P_q.
 class CellShares {
  public:
   /// The space must outlive it.
-  CellShares(const method::PolynomialSpace& space, int q);
+  CellShares(const method::Space& space, int q);
   /// (patch cell, l): what the cells get of R, valid until the next call. Collective.
   const CellTable& operator()(const algebra::Vector& R) const;
   /// Densities r(k, ·) of the moments that operator() gave, with what has been done to them since; overwritten.
@@ -22,7 +22,7 @@ class CellShares {
   std::size_t bytes() const { return sizeof(double) * moments_.size(); }
 
  private:
-  const method::PolynomialSpace& space_;
+  const method::Space& space_;
   int n_;  ///< dim P_q
   CellTable moments_;
   Matrix from_moments_;  ///< (mode, l)

@@ -5,7 +5,7 @@
 
 namespace thixis::bound {
 
-DiscretizationFlux::DiscretizationFlux(const method::PolynomialSpace& space, int q, const std::vector<bool>& held) : space_(space) {
+DiscretizationFlux::DiscretizationFlux(const method::Space& space, int q, const std::vector<bool>& held) : space_(space) {
   if (!space.conforming()) return;
   const LocalIndex cells = space.cells().extent_int(0);
   const int n = reference::dimension(q);
@@ -19,8 +19,8 @@ void DiscretizationFlux::operator()(const ContactProblem& problem, const method:
                                     const ConstCellTable& rate, const MembraneFlux& of) const {
   const double sign = alpha == 0 ? 1 : -1;
   if (!on_patches())
-    return space_.native_flux(*problem.tension[alpha], *problem.force[alpha], u, problem.boundary[alpha], problem.time,
-                              {lambda.at_held, sign}, of.disc);
+    return problem.form[alpha]->native_flux(*problem.force[alpha], u, problem.boundary[alpha], problem.time, {lambda.at_held, sign},
+                                            of.disc);
   PatchSources sources;
   sources.f = of.data.force;
   sources.rate = rate;

@@ -19,7 +19,7 @@ struct FluxMultiplier {
 class DiscretizationFlux {
  public:
   /// The space must outlive it.
-  DiscretizationFlux(const method::PolynomialSpace& space, int q, const std::vector<bool>& held);
+  DiscretizationFlux(const method::Space& space, int q, const std::vector<bool>& held);
 
   bool on_patches() const { return patches_ != nullptr; }
   /// Overwrites `of`.disc, from its data, stress and residuals. `rate`: a polynomial source to be taken from the force, densities on the
@@ -29,7 +29,7 @@ class DiscretizationFlux {
   std::size_t bytes() const;
 
  private:
-  const method::PolynomialSpace& space_;
+  const method::Space& space_;
   std::unique_ptr<equilibration::PatchFlux> patches_;
   Kokkos::View<const double***, Kokkos::LayoutRight> times_;
   CellTable density_, target_;

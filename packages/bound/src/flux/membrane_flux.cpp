@@ -7,7 +7,7 @@
 
 namespace thixis::bound {
 
-MembraneFlux make_membrane_flux(const method::PolynomialSpace& space, int q, const scene::Field& tension, const ResidualLift& lift) {
+MembraneFlux make_membrane_flux(const method::Space& space, int q, const scene::Field& tension, const ResidualLift& lift) {
   const LocalIndex owned = space.mesh().owned_cells;
   const TensionBounds bounds = tension_bounds(space, tension);
   MembraneFlux of;

@@ -27,6 +27,6 @@ struct MembraneFlux {
 };
 
 /// Everything but the data. Collective.
-MembraneFlux make_membrane_flux(const method::PolynomialSpace& space, int q, const scene::Field& tension, const ResidualLift& lift);
+MembraneFlux make_membrane_flux(const method::Space& space, int q, const scene::Field& tension, const ResidualLift& lift);
 
 }  // namespace thixis::bound

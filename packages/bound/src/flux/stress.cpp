@@ -111,7 +111,7 @@ struct ConstantNorms {
 
 class StressBase : public Stress {
  public:
-  explicit StressBase(const method::PolynomialSpace& space)
+  explicit StressBase(const method::Space& space)
       : gradient_{space.coefficients().element_entries,
                   {},
                   matrix("thixis::bound::gradient", 2 * reference::dimension(space.basis().degree() - 1), space.basis().size(),
@@ -132,7 +132,7 @@ class StressBase : public Stress {
 
 class ConstantStress final : public StressBase {
  public:
-  ConstantStress(const method::PolynomialSpace& space, double mu) : StressBase(space), mu_(mu) {}
+  ConstantStress(const method::Space& space, double mu) : StressBase(space), mu_(mu) {}
   void operator()(const method::Coefficients& u, const CellTable& w) const override {
     Kokkos::parallel_for("thixis::bound::stress", Kokkos::RangePolicy<>(0, cells_), FillConstant{of(u), mu_, w});
   }
@@ -231,7 +231,7 @@ struct VaryingNorms {
 
 class VaryingStress final : public StressBase {
  public:
-  VaryingStress(const method::PolynomialSpace& space, int q, const TensionBounds& bounds)
+  VaryingStress(const method::Space& space, int q, const TensionBounds& bounds)
       : StressBase(space), factor_("thixis::bound::inverse_root_tension", owned_) {
     const auto host = Kokkos::create_mirror_view(factor_);
     for (LocalIndex K = 0; K < owned_; ++K) host(K) = 1 / std::sqrt(bounds.least[K]);
@@ -272,7 +272,7 @@ class VaryingStress final : public StressBase {
 
 }  // namespace
 
-std::unique_ptr<Stress> make_stress(const method::PolynomialSpace& space, int q, const scene::Field& tension, const TensionBounds& bounds) {
+std::unique_ptr<Stress> make_stress(const method::Space& space, int q, const scene::Field& tension, const TensionBounds& bounds) {
   if (const double* constant = tension.constant()) return std::make_unique<ConstantStress>(space, *constant);
   return std::make_unique<VaryingStress>(space, q, bounds);
 }

@@ -3,7 +3,7 @@
 
 #include "data/tension_bounds.hpp"
 #include "thixis/bound/cell_fields.hpp"
-#include "thixis/method/polynomial_space.hpp"
+#include "thixis/method/space.hpp"
 
 namespace thixis::bound {
 
@@ -29,6 +29,6 @@ class Stress {
                              const ConstCellTable& w_before, const Fluxes& sigma, const Norms& norm, const View<double*>& change) const = 0;
 };
 
-std::unique_ptr<Stress> make_stress(const method::PolynomialSpace& space, int q, const scene::Field& tension, const TensionBounds& bounds);
+std::unique_ptr<Stress> make_stress(const method::Space& space, int q, const scene::Field& tension, const TensionBounds& bounds);
 
 }  // namespace thixis::bound

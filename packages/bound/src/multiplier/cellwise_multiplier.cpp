@@ -42,7 +42,7 @@ struct FitCell {
 
 class CellwiseMultiplier final : public NonNegativeMultiplier {
  public:
-  explicit CellwiseMultiplier(const method::PolynomialSpace& space) : space_(space), held_(space) {
+  explicit CellwiseMultiplier(const method::Space& space) : space_(space), held_(space) {
     const auto& basis = space.basis();
     const reference::Modal modal(basis.degree());
     const auto B = reference::bernstein(space.flux_degree());
@@ -69,14 +69,14 @@ class CellwiseMultiplier final : public NonNegativeMultiplier {
   std::size_t bytes() const override { return sizeof(double) * (from_moments_.size() + to_bernstein_.size() + held_.of_cells().size()); }
 
  private:
-  const method::PolynomialSpace& space_;
+  const method::Space& space_;
   HeldMoments held_;
   Matrix from_moments_, to_bernstein_;
 };
 
 }  // namespace
 
-std::unique_ptr<NonNegativeMultiplier> cellwise_multiplier(const method::PolynomialSpace& space) {
+std::unique_ptr<NonNegativeMultiplier> cellwise_multiplier(const method::Space& space) {
   return std::make_unique<CellwiseMultiplier>(space);
 }
 

@@ -93,7 +93,7 @@ std::vector<double> fit_of(const reference::CellBasis& basis, const std::vector<
 
 }  // namespace
 
-HeldMoments::HeldMoments(const method::PolynomialSpace& space) : entries_(space.coefficients().element_entries) {
+HeldMoments::HeldMoments(const method::Space& space) : entries_(space.coefficients().element_entries) {
   const reference::CellBasis& basis = space.basis();
   const int n = basis.size();
   const auto entries = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), entries_);

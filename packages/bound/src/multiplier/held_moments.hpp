@@ -1,6 +1,6 @@
 #pragma once
 #include "thixis/bound/cell_fields.hpp"
-#include "thixis/method/polynomial_space.hpp"
+#include "thixis/method/space.hpp"
 
 namespace thixis::bound {
 
@@ -9,7 +9,7 @@ namespace thixis::bound {
 /// determine, drawn to its mean just so far that it is nowhere negative (docs/methods/estimates.md, 5).
 class HeldMoments {
  public:
-  explicit HeldMoments(const method::PolynomialSpace& space);
+  explicit HeldMoments(const method::Space& space);
   /// `moments`: of lambda by entry, 0 at held ones. Not collective.
   void operator()(const View<const double*>& moments) const;
   /// (patch cell, l): against held functions, 0 at free ones; of length 0 where nothing is held.

@@ -4,7 +4,7 @@
 
 #include "thixis/algebra/fwd.hpp"
 #include "thixis/bound/cell_fields.hpp"
-#include "thixis/method/polynomial_space.hpp"
+#include "thixis/method/space.hpp"
 
 namespace thixis::bound {
 
@@ -27,10 +27,10 @@ class NonNegativeMultiplier {
 ///
 /// `avoid`, by patch cell (of length 0: none): cells in which the obstacle jumps. Patches that have others with contact leave them without
 /// a multiplier, which would press there on a gap that the feasible function can not close.
-std::unique_ptr<NonNegativeMultiplier> patchwise_multiplier(const method::PolynomialSpace& space, const View<const bool*>& avoid);
+std::unique_ptr<NonNegativeMultiplier> patchwise_multiplier(const method::Space& space, const View<const bool*>& avoid);
 
 /// Functions without continuity: in every cell the function with these moments (against held functions those of HeldMoments), projected on
 /// P_q and drawn to its mean likewise.
-std::unique_ptr<NonNegativeMultiplier> cellwise_multiplier(const method::PolynomialSpace& space);
+std::unique_ptr<NonNegativeMultiplier> cellwise_multiplier(const method::Space& space);
 
 }  // namespace thixis::bound

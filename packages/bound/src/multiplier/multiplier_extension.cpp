@@ -32,7 +32,7 @@ void add_translated(int degree, const From& from, double ratio, const double (&o
 
 }  // namespace
 
-MultiplierExtension::MultiplierExtension(const method::PolynomialSpace& space, const VertexPatches& patches, const Fits& fits)
+MultiplierExtension::MultiplierExtension(const method::Space& space, const VertexPatches& patches, const Fits& fits)
     : degree_(space.basis().degree() - 1),
       columns_(reference::dimension(degree_)),
       comm_(space.mesh().comm),

@@ -13,7 +13,7 @@ namespace thixis::bound {
 class MultiplierExtension {
  public:
   /// `fits`: of the same patches; a patch whose polynomials are constants has one where it has a free function. Collective.
-  MultiplierExtension(const method::PolynomialSpace& space, const VertexPatches& patches, const Fits& fits);
+  MultiplierExtension(const method::Space& space, const VertexPatches& patches, const Fits& fits);
   /// `coefficients`: scaled monomials of every patch (a, b), `mean`: a mean of lambda in it, at least 0; -1 where nothing is known of it.
   /// Overwrites the coefficients of the patches without a fit, and their mean where it is -1; what no vertex reaches becomes 0. Collective.
   void operator()(const CellTable& coefficients, const View<double*>& mean) const;

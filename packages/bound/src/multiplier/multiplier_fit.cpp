@@ -38,7 +38,7 @@ struct Distance {
 
 }  // namespace
 
-MultiplierFit::MultiplierFit(const method::PolynomialSpace& space, int q, const View<const bool*>& avoid, const CellShares& shares,
+MultiplierFit::MultiplierFit(const method::Space& space, int q, const View<const bool*>& avoid, const CellShares& shares,
                              const Metrics& metric)
     : space_(space),
       shares_(shares),
@@ -90,7 +90,7 @@ std::size_t MultiplierFit::bytes() const {
   return sizeof(double) * (lambda_.size() + of_vertices_.size() + positive_.size() + rest_.size()) + fit_->bytes();
 }
 
-void contact_at_points(const method::PolynomialSpace& space, const CellShares& shares, const Vector& above, const Vector& gap,
+void contact_at_points(const method::Space& space, const CellShares& shares, const Vector& above, const Vector& gap,
                        const View<double*>& out) {
   Vector product(space.map());
   {

@@ -10,8 +10,7 @@ namespace thixis::bound {
 class MultiplierFit {
  public:
   /// `avoid`: of patchwise_multiplier. The space and the shares must outlive it. Collective.
-  MultiplierFit(const method::PolynomialSpace& space, int q, const View<const bool*>& avoid, const CellShares& shares,
-                const Metrics& metric);
+  MultiplierFit(const method::Space& space, int q, const View<const bool*>& avoid, const CellShares& shares, const Metrics& metric);
 
   /// From X3: lambda^, and what is cut off. `above`, `cut_off`: D_l max(X3_l, 0) on points(), -D_l min(X3_l, 0) on map(), overwritten.
   /// Collective.
@@ -30,7 +29,7 @@ class MultiplierFit {
   void split(const algebra::Vector& X3, algebra::Vector& above, algebra::Vector& below) const;
   void compare(const algebra::Vector& above);
 
-  const method::PolynomialSpace& space_;
+  const method::Space& space_;
   const CellShares& shares_;
   Metrics metric_;
   bool conforming_;
@@ -40,7 +39,7 @@ class MultiplierFit {
 };
 
 /// sum_l M_l max(K_l, 0), M_l = `above`, shared out to the owned cells; overwrites `out`. Collective.
-void contact_at_points(const method::PolynomialSpace& space, const CellShares& shares, const algebra::Vector& above,
-                       const algebra::Vector& gap, const View<double*>& out);
+void contact_at_points(const method::Space& space, const CellShares& shares, const algebra::Vector& above, const algebra::Vector& gap,
+                       const View<double*>& out);
 
 }  // namespace thixis::bound

@@ -55,7 +55,7 @@ auto copy(const V& view) {
 /// Goes from patch to patch, on the host.
 class Builder {
  public:
-  Builder(const method::PolynomialSpace& space, const VertexPatches& patches, const Metrics& metric)
+  Builder(const method::Space& space, const VertexPatches& patches, const Metrics& metric)
       : basis_(space.basis()),
         B_(reference::bernstein(basis_.degree() - 1)),
         host_(mesh::on_host(space.mesh())),
@@ -185,7 +185,7 @@ class Builder {
 
 }  // namespace
 
-Fits multiplier_fits(const method::PolynomialSpace& space, const VertexPatches& patches, const Metrics& metric) {
+Fits multiplier_fits(const method::Space& space, const VertexPatches& patches, const Metrics& metric) {
   return Builder(space, patches, metric).fits();
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 #include "multiplier/vertex_patches.hpp"
 #include "thixis/bound/cell_fields.hpp"
-#include "thixis/method/polynomial_space.hpp"
+#include "thixis/method/space.hpp"
 
 namespace thixis::bound {
 
@@ -29,6 +29,6 @@ KOKKOS_INLINE_FUNCTION void monomials(int degree, double x, double y, double* va
 }
 
 /// For the free functions of the space. `metric`: of its patch cells.
-Fits multiplier_fits(const method::PolynomialSpace& space, const VertexPatches& patches, const Metrics& metric);
+Fits multiplier_fits(const method::Space& space, const VertexPatches& patches, const Metrics& metric);
 
 }  // namespace thixis::bound

@@ -160,7 +160,7 @@ struct LimitPatch {
 
 class PatchwiseMultiplier final : public NonNegativeMultiplier {
  public:
-  PatchwiseMultiplier(const method::PolynomialSpace& space, const View<const bool*>& avoid)
+  PatchwiseMultiplier(const method::Space& space, const View<const bool*>& avoid)
       : space_(space),
         avoid_(avoid),
         q_(space.flux_degree()),
@@ -271,7 +271,7 @@ class PatchwiseMultiplier final : public NonNegativeMultiplier {
     Kokkos::deep_copy(of_mean_, host);
   }
 
-  const method::PolynomialSpace& space_;
+  const method::Space& space_;
   View<const bool*> avoid_;
   int q_;
   reference::Bernstein B_;  ///< of degree p - 1
@@ -288,7 +288,7 @@ class PatchwiseMultiplier final : public NonNegativeMultiplier {
 
 }  // namespace
 
-std::unique_ptr<NonNegativeMultiplier> patchwise_multiplier(const method::PolynomialSpace& space, const View<const bool*>& avoid) {
+std::unique_ptr<NonNegativeMultiplier> patchwise_multiplier(const method::Space& space, const View<const bool*>& avoid) {
   return std::make_unique<PatchwiseMultiplier>(space, avoid);
 }
 

@@ -6,6 +6,7 @@
 #include "estimate/square.hpp"
 #include "step/bound_so_far.hpp"
 #include "step/step_evaluation.hpp"
+#include "thixis/method/measures.hpp"
 
 namespace thixis::bound {
 
@@ -17,7 +18,7 @@ struct StepBound::Impl {
   BoundSoFar so_far;
 };
 
-StepBound::StepBound(const method::PolynomialSpace& space, const ContactProblem& problem, const mesh::Hierarchy& hierarchy, int level,
+StepBound::StepBound(const method::Space& space, const ContactProblem& problem, const mesh::Hierarchy& hierarchy, int level,
                      std::optional<double> friedrichs)
     : impl_(new Impl{{space, problem, hierarchy, level, friedrichs}, {}}) {}
 StepBound::~StepBound() = default;
@@ -29,7 +30,7 @@ void StepBound::start(double time, const Coefficients (&u)[2], const std::array<
   double square = 0;
   std::vector<std::string> doubts;
   for (int alpha = 0; alpha < parts.problem.count; ++alpha) {
-    square += squared(away[alpha] + (initial[alpha] ? std::sqrt(parts.space.l2_error(u[alpha], *initial[alpha], time)) : 0));
+    square += squared(away[alpha] + (initial[alpha] ? std::sqrt(method::l2_error(parts.space, u[alpha], initial[alpha], time)) : 0));
     if (!initial[alpha]) continue;
     for (auto& clause : doubts_at_start(parts.space, alpha, *initial[alpha])) doubts.push_back(std::move(clause));
   }

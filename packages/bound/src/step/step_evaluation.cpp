@@ -14,8 +14,8 @@ using algebra::Vector;
 using complementarity::Promise;
 using method::Coefficients;
 
-StepEvaluation::StepEvaluation(const method::PolynomialSpace& space, const ContactProblem& problem, const mesh::Hierarchy& hierarchy,
-                               int level, std::optional<double> friedrichs)
+StepEvaluation::StepEvaluation(const method::Space& space, const ContactProblem& problem, const mesh::Hierarchy& hierarchy, int level,
+                               std::optional<double> friedrichs)
     : parts_(space, problem, hierarchy, level),
       setting_(parts_, friedrichs),
       flux_(parts_),

@@ -24,7 +24,7 @@ struct StepSetting {
 class StepEvaluation {
  public:
   /// As StepBound.
-  StepEvaluation(const method::PolynomialSpace& space, const ContactProblem& problem, const mesh::Hierarchy& hierarchy, int level,
+  StepEvaluation(const method::Space& space, const ContactProblem& problem, const mesh::Hierarchy& hierarchy, int level,
                  std::optional<double> friedrichs);
 
   /// From u at `begin`. Collective.

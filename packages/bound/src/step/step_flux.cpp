@@ -50,7 +50,7 @@ struct RestOfRate {
 }  // namespace
 
 StepFlux::StepFlux(const BoundParts& parts) {
-  const method::PolynomialSpace& space = parts.space;
+  const method::Space& space = parts.space;
   const int functions = space.basis().size();
   modal_ = matrix("thixis::bound::to_modal", functions, functions, to_modal(space.basis(), reference::Modal(space.basis().degree())));
   remaining_ = CellTable("thixis::bound::remaining", parts.owned(), functions);

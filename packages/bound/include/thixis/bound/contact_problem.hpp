@@ -2,7 +2,7 @@
 #include <array>
 
 #include "thixis/algebra/fwd.hpp"
-#include "thixis/method/polynomial_space.hpp"
+#include "thixis/method/form.hpp"
 #include "thixis/scene/field.hpp"
 
 namespace thixis::bound {
@@ -12,6 +12,7 @@ namespace thixis::bound {
 struct ContactProblem {
   int count = 2;
   std::array<scene::FieldPtr, 2> tension, force;
+  std::array<method::FormPtr, 2> form;  ///< (mu_alpha grad u, grad v) on the space of the iterates
   std::array<method::BoundaryValues, 2> boundary;
   scene::FieldPtr obstacle;   ///< count = 1
   scene::FieldPtr interface;  ///< level set of the curves across which data jump; may be null

@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "thixis/bound/cell_fields.hpp"
-#include "thixis/method/polynomial_space.hpp"
+#include "thixis/method/space.hpp"
 #include "thixis/scene/field.hpp"
 
 namespace thixis::bound {
@@ -33,7 +33,7 @@ class FeasiblePair {
   };
   /// Set up once per mesh: the lift of g - g_h, its energy being nearly least (nothing where g is a polynomial of degree p on every face).
   /// Collective; the space must outlive it. Throws InputError where a function is not finite or a tension not positive.
-  FeasiblePair(const method::PolynomialSpace& space, const Problem& problem);
+  FeasiblePair(const method::Space& space, const Problem& problem);
   ~FeasiblePair();
   FeasiblePair(const FeasiblePair&) = delete;
   FeasiblePair& operator=(const FeasiblePair&) = delete;

@@ -7,7 +7,7 @@
 #include "thixis/bound/contact_problem.hpp"
 #include "thixis/complementarity/estimate.hpp"
 #include "thixis/mesh/mesh.hpp"
-#include "thixis/method/polynomial_space.hpp"
+#include "thixis/method/space.hpp"
 
 namespace thixis::bound {
 
@@ -19,7 +19,7 @@ namespace thixis::bound {
 class GuaranteedBound {
  public:
   /// What the mesh needs is set up here. The space and the hierarchy must outlive it. Collective.
-  GuaranteedBound(const method::PolynomialSpace& space, const ContactProblem& problem, const mesh::Hierarchy& hierarchy, int level);
+  GuaranteedBound(const method::Space& space, const ContactProblem& problem, const mesh::Hierarchy& hierarchy, int level);
   ~GuaranteedBound();
   GuaranteedBound(const GuaranteedBound&) = delete;
   GuaranteedBound& operator=(const GuaranteedBound&) = delete;

@@ -14,8 +14,8 @@ struct PublishedBound {
 
 /// `gap`: u_1 - u_2 (u - psi_h) as a function of the space; `friedrichs`: h_Omega C_PF, |v| <= h_Omega C_PF |grad v| for v that vanish
 /// where the membranes are held. Conforming spaces only. Collective.
-PublishedBound published_bound(const method::PolynomialSpace& space, const ContactProblem& problem, const mesh::Hierarchy& hierarchy,
-                               int level, const Iterate& iterate, const method::Coefficients& gap, double friedrichs);
+PublishedBound published_bound(const method::Space& space, const ContactProblem& problem, const mesh::Hierarchy& hierarchy, int level,
+                               const Iterate& iterate, const method::Coefficients& gap, double friedrichs);
 
 /// 1/(pi (a^{-2} + b^{-2})^{1/2}) for the box a × b around the mesh: a Friedrichs constant where the whole boundary is held. Collective.
 double friedrichs_of_box(const mesh::Mesh& mesh);

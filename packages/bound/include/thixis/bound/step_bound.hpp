@@ -26,7 +26,7 @@ class StepBound {
   /// given: that of the box around the mesh, where the whole boundary is held, else none, and what the step does not balance enters by its
   /// norm in L1(L2), as does always what no flux takes away from a piece that nothing holds. Collective; throws InputError for methods
   /// without such a bound and for tractions or tensions that depend on time.
-  StepBound(const method::PolynomialSpace& space, const ContactProblem& problem, const mesh::Hierarchy& hierarchy, int level,
+  StepBound(const method::Space& space, const ContactProblem& problem, const mesh::Hierarchy& hierarchy, int level,
             std::optional<double> friedrichs = {});
   ~StepBound();
   StepBound(const StepBound&) = delete;

@@ -3,7 +3,7 @@
 
 #include "thixis/algebra/solver.hpp"
 #include "thixis/complementarity/newton.hpp"
-#include "thixis/method/space.hpp"
+#include "thixis/method/form.hpp"
 #include "thixis/models/model.hpp"
 #include "thixis/scene/membranes.hpp"
 
@@ -14,10 +14,9 @@ namespace thixis::membranes {
 ///     -div(mu1 grad u1) - lambda = f1,   -div(mu2 grad u2) + lambda = f2,   u1 - u2 >= 0, lambda >= 0, (u1 - u2) lambda = 0;
 ///     -div(mu grad u) - lambda = f,                                         u - psi >= 0, lambda >= 0, (u - psi) lambda = 0.
 ///
-/// `make_space`, `check_mesh`: the method. `initial`: expressions of the deck for the cold start, u_1 (or u), u_2, lambda (null: those of
+/// `initial`: expressions of the deck for the cold start, u_1 (or u), u_2, lambda (null: those of
 /// the scene, else zero).
-std::unique_ptr<models::StationaryModel> membranes(scene::MembraneScene scene, method::SpaceFactory make_space, method::MethodParams method,
-                                                   algebra::LinearParams linear, std::array<scene::FieldPtr, 3> initial,
-                                                   method::MeshCheck check_mesh = {});
+std::unique_ptr<models::StationaryModel> membranes(scene::MembraneScene scene, method::Method by, method::MethodParams method,
+                                                   algebra::LinearParams linear, std::array<scene::FieldPtr, 3> initial);
 
 }  // namespace thixis::membranes

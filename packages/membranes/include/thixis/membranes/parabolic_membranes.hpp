@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "thixis/algebra/solver.hpp"
-#include "thixis/method/space.hpp"
+#include "thixis/method/form.hpp"
 #include "thixis/models/evolution.hpp"
 #include "thixis/scene/membranes.hpp"
 
@@ -14,9 +14,8 @@ namespace thixis::membranes {
 ///     d_t u1 - div(mu1 grad u1) - lambda = f1,   d_t u2 - div(mu2 grad u2) + lambda = f2,
 ///     u1 - u2 >= 0,  lambda >= 0,  (u1 - u2) lambda = 0,      u1, u2 given at time 0.
 ///
-/// `make_space`, `check_mesh`: the method. `friedrichs`: of bound::StepBound.
-std::unique_ptr<models::UnsteadyModel> parabolic_membranes(scene::MembraneScene scene, method::SpaceFactory make_space,
-                                                           method::MethodParams method, algebra::LinearParams linear,
-                                                           method::MeshCheck check_mesh = {}, std::optional<double> friedrichs = {});
+/// `friedrichs`: of bound::StepBound.
+std::unique_ptr<models::UnsteadyModel> parabolic_membranes(scene::MembraneScene scene, method::Method by, method::MethodParams method,
+                                                           algebra::LinearParams linear, std::optional<double> friedrichs = {});
 
 }  // namespace thixis::membranes

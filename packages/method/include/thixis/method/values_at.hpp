@@ -2,11 +2,11 @@
 #include <vector>
 
 #include "thixis/mesh/locate.hpp"
-#include "thixis/method/polynomial_space.hpp"
+#include "thixis/method/space.hpp"
 
 namespace thixis::method {
 
 /// u_h at places of the mesh of the space (mesh::locate), on all ranks. Collective.
-std::vector<double> values_at(const PolynomialSpace& space, const std::vector<mesh::Place>& places, const Coefficients& u);
+std::vector<double> values_at(const Space& space, const std::vector<mesh::Place>& places, const Coefficients& u);
 
 }  // namespace thixis::method
