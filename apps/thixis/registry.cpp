@@ -4,10 +4,10 @@
 #include "thixis/core/error.hpp"
 #include "thixis/dg/space.hpp"
 #include "thixis/fem/lagrange_space.hpp"
+#include "thixis/flow/two_phase.hpp"
 #include "thixis/hho/space.hpp"
-#include "thixis/models/membranes.hpp"
-#include "thixis/models/parabolic_membranes.hpp"
-#include "thixis/models/two_phase.hpp"
+#include "thixis/membranes/membranes.hpp"
+#include "thixis/membranes/parabolic_membranes.hpp"
 #include "thixis/scene/membranes.hpp"
 
 namespace thixis {
@@ -48,11 +48,11 @@ std::unique_ptr<models::Model> make_two_phase(const drive::RunParams& params) {
   if (time.unit == drive::TimeUnit::none)
     throw core::InputError("time/unit: viscosities and permeabilities have units, and so has time; write second or year.");
   const double seconds = drive::seconds_in(time.unit);
-  models::TwoPhaseBoundParams bound;
+  flow::TwoPhaseBoundParams bound;
   bound.measure = params.stopping.measure;
   bound.adaptive = params.stopping.rule == complementarity::StoppingRule::adaptive;
   if (params.stopping.time_scale) bound.time_scale = *params.stopping.time_scale * seconds;
-  return models::two_phase(std::move(scene), params.linear, seconds, bound);
+  return flow::two_phase(std::move(scene), params.linear, seconds, bound);
 }
 
 }  // namespace
@@ -64,11 +64,11 @@ std::unique_ptr<models::Model> make_model(const drive::RunParams& params) {
   switch (params.scene.model) {
     case scene::Model::membranes:
     case scene::Model::obstacle:
-      return models::membranes(scene::membrane_scene(params.scene), make_space, params.method, params.linear, initial_fields(params),
-                               check_mesh);
+      return membranes::membranes(scene::membrane_scene(params.scene), make_space, params.method, params.linear, initial_fields(params),
+                                  check_mesh);
     case scene::Model::parabolic_membranes:
-      return models::parabolic_membranes(scene::membrane_scene(params.scene), make_space, params.method, params.linear, check_mesh,
-                                         params.stopping.friedrichs);
+      return membranes::parabolic_membranes(scene::membrane_scene(params.scene), make_space, params.method, params.linear, check_mesh,
+                                            params.stopping.friedrichs);
     default:
       throw core::InputError("scene/model: this version does not serve " + scene::to_text(params.scene.model) +
                              "; write membranes, obstacle, parabolic membranes or two-phase.");

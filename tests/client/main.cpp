@@ -7,9 +7,9 @@
 #include "thixis/core/error.hpp"
 #include "thixis/drive/stationary.hpp"
 #include "thixis/fem/lagrange_space.hpp"
+#include "thixis/membranes/membranes.hpp"
 #include "thixis/mesh/build.hpp"
 #include "thixis/mesh/mesh.hpp"
-#include "thixis/models/membranes.hpp"
 #include "thixis/scene/membranes.hpp"
 
 namespace {
@@ -34,8 +34,8 @@ bool solve() {
   const auto deck = thixis::core::Deck::from_text(text, "client");
   const auto params = deck.parse(drive::RunParams::schema());
   auto hierarchy = thixis::mesh::build(params.mesh, thixis::core::Comm(), deck.folder());
-  const auto model = thixis::models::membranes(thixis::scene::membrane_scene(params.scene), thixis::fem::make_lagrange_space, params.method,
-                                               params.linear, {});
+  const auto model = thixis::membranes::membranes(thixis::scene::membrane_scene(params.scene), thixis::fem::make_lagrange_space,
+                                                  params.method, params.linear, {});
   const drive::Outcome outcome = drive::solve_stationary(*model, hierarchy, params, {});
 
   const auto kkt = thixis::complementarity::verify(outcome.discretization->kkt_data(*outcome.X));

@@ -13,7 +13,7 @@
 
 #include "problems.hpp"
 #include "thixis/core/timer.hpp"
-#include "thixis/models/membranes.hpp"
+#include "thixis/membranes/membranes.hpp"
 
 namespace thixis::verification {
 namespace {
@@ -22,7 +22,7 @@ using algebra::Vector;
 constexpr int restart = 50;
 
 std::unique_ptr<models::StationaryModel> model(const drive::RunParams& params, const algebra::LinearParams& linear) {
-  return models::membranes(scene::membrane_scene(params.scene), factory(params.method.name), params.method, linear, {});
+  return membranes::membranes(scene::membrane_scene(params.scene), factory(params.method.name), params.method, linear, {});
 }
 
 /// Sets up the system of the first Newton step at X; its residual goes to R. Seconds.

@@ -4,9 +4,9 @@
 #include <array>
 #include <map>
 
-#include "cut.hpp"
 #include "root_flux.hpp"
 #include "thixis/core/assert.hpp"
+#include "thixis/equilibration/cut.hpp"
 
 namespace thixis::equilibration {
 namespace {

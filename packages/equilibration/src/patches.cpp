@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <string>
 
+#include "thixis/equilibration/to_view.hpp"
 #include "thixis/mesh/geometry.hpp"
 #include "thixis/mesh/host.hpp"
-#include "to_view.hpp"
 
 namespace thixis::equilibration {
 namespace {

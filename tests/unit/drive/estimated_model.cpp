@@ -5,8 +5,8 @@
 
 #include "thixis/algebra/tpetra.hpp"
 #include "thixis/fem/lagrange_space.hpp"
+#include "thixis/membranes/membranes.hpp"
 #include "thixis/mesh/host.hpp"
-#include "thixis/models/membranes.hpp"
 
 namespace thixis::drive::test {
 namespace {
@@ -99,7 +99,7 @@ class Estimated final : public models::Discretization {
 }  // namespace
 
 EstimatedModel::EstimatedModel(const RunParams& params)
-    : inner_(models::membranes(scene::membrane_scene(params.scene), fem::make_lagrange_space, params.method, params.linear, {})) {}
+    : inner_(membranes::membranes(scene::membrane_scene(params.scene), fem::make_lagrange_space, params.method, params.linear, {})) {}
 
 std::unique_ptr<models::Discretization> EstimatedModel::discretize(const mesh::Hierarchy& hierarchy, int level) const {
   entered.push_back(level);

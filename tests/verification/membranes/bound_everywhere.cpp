@@ -123,7 +123,8 @@ std::size_t allocations_of_bounds = 0;
 std::size_t allocations_in(const drive::RunParams& params) {
   Kokkos::Tools::Experimental::set_allocate_data_callback(
       [](Kokkos_Profiling_SpaceHandle, const char* label, const void*, const std::uint64_t) {
-        if (std::strncmp(label, "thixis::equilibration", 21) == 0) ++allocations_of_bounds;
+        for (const char* package : {"thixis::bound", "thixis::equilibration"})
+          if (std::strncmp(label, package, std::strlen(package)) == 0) ++allocations_of_bounds;
       });
   allocations_of_bounds = 0;
   solve(params);

@@ -1,6 +1,6 @@
 #include "iterates.hpp"
 
-#include "thixis/models/membranes.hpp"
+#include "thixis/membranes/membranes.hpp"
 
 namespace thixis::verification {
 
@@ -10,7 +10,7 @@ Laid lay(const drive::RunParams& params, const core::Comm& comm) {
   Laid laid;
   laid.params = params;
   laid.hierarchy = mesh::build(params.mesh, comm, INPUTS);
-  laid.model = models::membranes(scene::membrane_scene(params.scene), factory(params.method.name), params.method, params.linear, {});
+  laid.model = membranes::membranes(scene::membrane_scene(params.scene), factory(params.method.name), params.method, params.linear, {});
   laid.model->check(laid.hierarchy.finest(), {});
   laid.discretization = laid.model->discretize(laid.hierarchy, static_cast<int>(laid.hierarchy.levels.size()) - 1);
   return laid;

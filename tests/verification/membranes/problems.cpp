@@ -6,7 +6,7 @@
 #include "thixis/dg/space.hpp"
 #include "thixis/fem/lagrange_space.hpp"
 #include "thixis/hho/space.hpp"
-#include "thixis/models/membranes.hpp"
+#include "thixis/membranes/membranes.hpp"
 
 namespace thixis::verification {
 namespace {
@@ -33,7 +33,7 @@ method::SpaceFactory factory(method::MethodName name) {
 Solved solve(const drive::RunParams& params, const core::Comm& comm, const drive::Observer& observer) {
   Solved run;
   run.hierarchy = mesh::build(params.mesh, comm, INPUTS);
-  run.model = models::membranes(scene::membrane_scene(params.scene), factory(params.method.name), params.method, params.linear, {});
+  run.model = membranes::membranes(scene::membrane_scene(params.scene), factory(params.method.name), params.method, params.linear, {});
   run.model->check(run.hierarchy.finest(), {});
   run.outcome = drive::solve_stationary(*run.model, run.hierarchy, params, observer);
   return run;

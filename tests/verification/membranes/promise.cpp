@@ -8,8 +8,8 @@
 
 #include "problems.hpp"
 #include "thixis/core/deck.hpp"
+#include "thixis/membranes/membranes.hpp"
 #include "thixis/method/quadrature.hpp"
-#include "thixis/models/membranes.hpp"
 
 namespace thixis::verification {
 namespace {
@@ -45,7 +45,7 @@ Judged judged(const drive::RunParams& params, const std::string& kinks = "") {
   drive::RunParams finer = params;
   finer.method.quadrature_order = 30;
   if (!kinks.empty()) finer.scene.interface.text = kinks;
-  const auto model = models::membranes(scene::membrane_scene(finer.scene), factory(finer.method.name), finer.method, finer.linear, {});
+  const auto model = membranes::membranes(scene::membrane_scene(finer.scene), factory(finer.method.name), finer.method, finer.linear, {});
   const auto judge = model->discretize(run.hierarchy, run.outcome.at.level);
   return {run.outcome.estimate->promise, run.outcome.estimate->total, *judge->energy_error(*run.outcome.X)};
 }
@@ -230,7 +230,7 @@ TEST(Promise, of_a_force_that_vanishes_at_all_points_of_the_rule_is_none) {
   });
   scene::MembraneScene scene = scene::membrane_scene(params.scene);
   scene.force[0] = unseen(x, y);
-  const auto model = models::membranes(scene, factory(method.name), method, params.linear, {});
+  const auto model = membranes::membranes(scene, factory(method.name), method, params.linear, {});
   const auto outcome = drive::solve_stationary(*model, hierarchy, params, {});
   EXPECT_EQ(outcome.estimate->promise, Promise::up_to_quadrature);
 

@@ -9,7 +9,7 @@
 #include "thixis/core/error.hpp"
 #include "thixis/fem/lagrange_space.hpp"
 #include "thixis/hho/space.hpp"
-#include "thixis/models/membranes.hpp"
+#include "thixis/membranes/membranes.hpp"
 
 namespace thixis::verification {
 namespace {
@@ -112,7 +112,7 @@ TEST(Relaxation, ends_at_the_stationary_solution) {
     EXPECT_GT(run.at(19, "contact_force"), 0);
     const auto hierarchy = mesh::build(params.mesh, core::Comm(), "");
     const auto make_space = method == MethodName::fem ? fem::make_lagrange_space : hho::make_space;
-    const auto model = models::membranes(scene::membrane_scene(params.scene), make_space, params.method, params.linear, {});
+    const auto model = membranes::membranes(scene::membrane_scene(params.scene), make_space, params.method, params.linear, {});
     const auto rest = model->discretize(hierarchy, static_cast<int>(hierarchy.levels.size()) - 1);
     const auto X = rest->cold_start();
     EXPECT_TRUE(complementarity::newton(rest->problem(), *X, params.newton, params.stopping, 10, {}, {}).converged);
@@ -205,9 +205,9 @@ TEST(Checkpoint, brings_the_refined_mesh) {
     auto params = fit_for_ranks(on_squares("smooth moving contact", 4, method, 2));
     params.mesh.refinements = 0;
     params.mesh.cells_per_rank = 4;
-    const auto model =
-        models::parabolic_membranes(scene::membrane_scene(params.scene),
-                                    method == MethodName::hho ? hho::make_space : fem::make_lagrange_space, params.method, params.linear);
+    const auto model = membranes::parabolic_membranes(scene::membrane_scene(params.scene),
+                                                      method == MethodName::hho ? hho::make_space : fem::make_lagrange_space, params.method,
+                                                      params.linear);
     const auto step = [&](models::Evolution& evolution, int n, Teuchos::RCP<Vector>& X) {
       const Vector before(*X, Teuchos::Copy);
       evolution.begin({0.1 * (n - 1), 0.1 * n}, before);

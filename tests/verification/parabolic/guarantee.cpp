@@ -42,7 +42,7 @@ Bounded bounded(drive::RunParams params, int steps, double end, Ending ending, c
   if (ending == Ending::smooth_c_function) params.newton.c_function = complementarity::CFunction::fischer_burmeister;
   if (ending == Ending::two_systems) params.newton.max_iterations = 2;
   const auto make = params.method.name == MethodName::hho ? hho::make_space : fem::make_lagrange_space;
-  const auto model = models::parabolic_membranes(scene::membrane_scene(params.scene), make, params.method, params.linear);
+  const auto model = membranes::parabolic_membranes(scene::membrane_scene(params.scene), make, params.method, params.linear);
   const auto evolution = model->evolve(params.mesh, comm, "", {});
   auto X = evolution->initial();
   Bounded result;
@@ -131,7 +131,7 @@ TEST(GuaranteeOnRanks, stays_above_the_error_when_the_mesh_is_refined) {
       auto params = on_squares("moving contact", 4, method, degree);
       params.mesh.cells_per_rank = 8;
       const auto make = method == MethodName::hho ? hho::make_space : fem::make_lagrange_space;
-      const auto model = models::parabolic_membranes(scene::membrane_scene(params.scene), make, params.method, params.linear);
+      const auto model = membranes::parabolic_membranes(scene::membrane_scene(params.scene), make, params.method, params.linear);
       const auto evolution = model->evolve(params.mesh, core::Comm(), "", {});
       auto X = evolution->initial();
       for (int n = 1; n <= 4; ++n) {
@@ -178,7 +178,7 @@ TEST(GuaranteeOnRanks, goes_on_from_a_checkpoint) {
     auto params = on_squares("moving contact", 4, method, 2);
     params.mesh.cells_per_rank = 8;
     const auto make = method == MethodName::hho ? hho::make_space : fem::make_lagrange_space;
-    const auto model = models::parabolic_membranes(scene::membrane_scene(params.scene), make, params.method, params.linear);
+    const auto model = membranes::parabolic_membranes(scene::membrane_scene(params.scene), make, params.method, params.linear);
     const auto step = [&](models::Evolution& evolution, int n, Teuchos::RCP<algebra::Vector>& X) {
       const algebra::Vector before(*X, Teuchos::Copy);
       evolution.begin({0.1 * (n - 1), 0.1 * n}, before);

@@ -51,7 +51,8 @@ double March::error_at_ends(double step) const {
 
 March march(const drive::RunParams& params, int steps, double end, const AtStep& at_step, const core::Comm& comm) {
   March run;
-  run.model = models::parabolic_membranes(scene::membrane_scene(params.scene), factory(params.method.name), params.method, params.linear);
+  run.model =
+      membranes::parabolic_membranes(scene::membrane_scene(params.scene), factory(params.method.name), params.method, params.linear);
   run.evolution = run.model->evolve(params.mesh, comm, "", {});
   models::Evolution& evolution = *run.evolution;
   run.X = evolution.initial();

@@ -6,7 +6,7 @@
 
 #include "thixis/algebra/tpetra.hpp"
 #include "thixis/drive/params.hpp"
-#include "thixis/models/parabolic_membranes.hpp"
+#include "thixis/membranes/parabolic_membranes.hpp"
 
 namespace thixis::verification {
 

@@ -68,7 +68,7 @@ TEST(NothingHeld, has_a_bound) {
     for (const double disturbance : {0.0, 1e-2}) {
       const auto params = sinking(method, degree);
       const auto make = method == MethodName::hho ? hho::make_space : fem::make_lagrange_space;
-      const auto model = models::parabolic_membranes(scene::membrane_scene(params.scene), make, params.method, params.linear);
+      const auto model = membranes::parabolic_membranes(scene::membrane_scene(params.scene), make, params.method, params.linear);
       const auto evolution = model->evolve(params.mesh, core::Comm(), "", {});
       auto X = evolution->initial();
       for (int n = 1; n <= 4; ++n) {

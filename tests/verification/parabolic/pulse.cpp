@@ -27,7 +27,7 @@ Seen one_step(const std::string& force, const std::string& height = "0.1") {
   data.initial->u1 = {"0.1"};
   data.initial->u2 = {"0"};
   const auto model =
-      models::parabolic_membranes(scene::membrane_scene(params.scene), fem::make_lagrange_space, params.method, params.linear);
+      membranes::parabolic_membranes(scene::membrane_scene(params.scene), fem::make_lagrange_space, params.method, params.linear);
   const auto evolution = model->evolve(params.mesh, core::Comm(), "", {});
   auto X = evolution->initial();
   const algebra::Vector before(*X, Teuchos::Copy);

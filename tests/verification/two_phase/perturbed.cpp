@@ -8,7 +8,7 @@
 #include "two_phase_problem.hpp"
 #include "two_phase_verifier.hpp"
 
-namespace thixis::models {
+namespace thixis::flow {
 namespace {
 
 using algebra::Vector;
@@ -290,4 +290,4 @@ TEST(Verifier, names_what_no_solution_can_be) {
 }
 
 }  // namespace
-}  // namespace thixis::models
+}  // namespace thixis::flow

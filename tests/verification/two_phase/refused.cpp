@@ -3,7 +3,7 @@
 
 #include "thixis/algebra/tpetra.hpp"
 #include "thixis/drive/evolve.hpp"
-#include "thixis/models/two_phase.hpp"
+#include "thixis/flow/two_phase.hpp"
 #include "thixis/scene/field.hpp"
 
 namespace thixis::drive {
@@ -35,9 +35,9 @@ struct Rock {
   }
 
   EvolutionOutcome run() {
-    models::TwoPhaseBoundParams bound;
+    flow::TwoPhaseBoundParams bound;
     bound.adaptive = params.stopping.rule == complementarity::StoppingRule::adaptive;
-    const auto model = models::two_phase(scene, params.linear, year, bound);
+    const auto model = flow::two_phase(scene, params.linear, year, bound);
     const auto evolution = model->evolve(params.mesh, core::Comm(), "", {});
     return evolve(*evolution, params, {});
   }

@@ -59,7 +59,7 @@ struct EvolutionState {
 /// `give_up` returns to it.
 class Evolution {
  public:
-  virtual ~Evolution() = default;
+  virtual ~Evolution();
 
   virtual const core::Comm& comm() const = 0;
   virtual GlobalIndex cells() const = 0;

@@ -63,7 +63,7 @@ struct Wanted {
 /// A scene on one mesh.
 class Discretization {
  public:
-  virtual ~Discretization() = default;
+  virtual ~Discretization();
 
   virtual complementarity::Problem& problem() = 0;
   virtual Sizes sizes() const = 0;
@@ -109,7 +109,7 @@ class Discretization {
 /// A scene before it meets a mesh: a StationaryModel or an UnsteadyModel (evolution.hpp).
 class Model {
  public:
-  virtual ~Model() = default;
+  virtual ~Model();
   virtual std::string name() const = 0;
   virtual std::string case_name() const = 0;                  ///< empty for data of the user
   virtual std::vector<std::string> point_fields() const = 0;  ///< the names of the fields whose values at points are known

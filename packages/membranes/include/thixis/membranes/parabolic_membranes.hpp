@@ -1,0 +1,22 @@
+#pragma once
+#include <memory>
+#include <optional>
+
+#include "thixis/algebra/solver.hpp"
+#include "thixis/method/space.hpp"
+#include "thixis/models/evolution.hpp"
+#include "thixis/scene/membranes.hpp"
+
+namespace thixis::membranes {
+
+/// Contact between two membranes in time (docs/methods/parabolic.md), by backward Euler:
+///
+///     d_t u1 - div(mu1 grad u1) - lambda = f1,   d_t u2 - div(mu2 grad u2) + lambda = f2,
+///     u1 - u2 >= 0,  lambda >= 0,  (u1 - u2) lambda = 0,      u1, u2 given at time 0.
+///
+/// `make_space`, `check_mesh`: the method. `friedrichs`: of bound::StepBound.
+std::unique_ptr<models::UnsteadyModel> parabolic_membranes(scene::MembraneScene scene, method::SpaceFactory make_space,
+                                                           method::MethodParams method, algebra::LinearParams linear,
+                                                           method::MeshCheck check_mesh = {}, std::optional<double> friedrichs = {});
+
+}  // namespace thixis::membranes

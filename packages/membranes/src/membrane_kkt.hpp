@@ -1,0 +1,22 @@
+#pragma once
+#include "membrane_problem.hpp"
+#include "thixis/complementarity/kkt.hpp"
+
+namespace thixis::membranes {
+
+/// A solution X with its membranes as functions.
+struct MembraneSolution {
+  const scene::MembraneScene& scene;
+  const method::Space& space;
+  const MembraneProblem& problem;
+  const Teuchos::RCP<algebra::Vector>* body;  ///< loads, before Dirichlet data are moved to the right
+  Fields x;
+  method::Coefficients u[2] = {};
+  double t = 0;                       ///< of the data
+  method::Coefficients rate[2] = {};  ///< of a scene in time: (u_alpha - u_alpha^{n-1}) / tau, which the equations hold besides
+};
+
+/// What the verifier judges, from forces cell by cell (docs/methods/membranes.md, 6). Collective.
+complementarity::KktData kkt_data(const MembraneSolution& solution);
+
+}  // namespace thixis::membranes
