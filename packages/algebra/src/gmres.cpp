@@ -10,6 +10,7 @@
 #include <BelosOutputManager.hpp>
 #include <cmath>
 
+#include "krylov_iterate.hpp"
 #include "watch.hpp"
 
 namespace thixis::algebra {
@@ -17,7 +18,18 @@ namespace thixis::algebra {
 namespace {
 
 using Problem = Belos::LinearProblem<double, MultiVector, Operator>;
-using Iteration = Belos::BlockGmresIter<double, MultiVector, Operator>;
+using GmresIteration = Belos::BlockGmresIter<double, MultiVector, Operator>;
+
+/// Belos would make new vectors for each iterate that is looked at.
+class GmresWatch : public Watch {
+  Teuchos::RCP<const MultiVector> iterate(Watch::Iteration& iteration) override {
+    const auto state = dynamic_cast<GmresIteration&>(iteration).getState();
+    auto& problem = const_cast<Problem&>(iteration.getProblem());
+    return iterate_(*problem.getCurrLHSVec(), problem.getRightPrec().get(), *state.V, *state.R, *state.z, state.curDim);
+  }
+
+  KrylovIterate iterate_;
+};
 
 class Gmres : public Method {
  public:
@@ -35,7 +47,7 @@ class Gmres : public Method {
 
   LinearReport solve(const Vector& b, Vector& x, const LinearStop& stop) override {
     set_vectors(b, x);
-    if (!iteration_) iteration_ = std::make_unique<Iteration>(problem_, output_, watch_, orthogonalization_, *options());
+    if (!iteration_) iteration_ = std::make_unique<GmresIteration>(problem_, output_, watch_, orthogonalization_, *options());
     iteration_->resetNumIters();
     watch_->begin(stop, max_iterations_);
     Vector r(b.getMap(), false);
@@ -110,11 +122,11 @@ class Gmres : public Method {
   int max_iterations_;
   Teuchos::RCP<const Matrix> A_;
   Teuchos::RCP<Problem> problem_;  ///< keeps vectors, like iteration_, from one solve to the next
-  Teuchos::RCP<Watch> watch_ = Teuchos::rcp(new Watch);
+  Teuchos::RCP<Watch> watch_ = Teuchos::rcp(new GmresWatch);
   Teuchos::RCP<Belos::OutputManager<double>> output_ = Teuchos::rcp(new Belos::OutputManager<double>(Belos::Errors));
   Teuchos::RCP<Belos::MatOrthoManager<double, MultiVector, Operator>> orthogonalization_ =
       Teuchos::rcp(new Belos::ICGSOrthoManager<double, MultiVector, Operator>);
-  std::unique_ptr<Iteration> iteration_;
+  std::unique_ptr<GmresIteration> iteration_;
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 namespace thixis::algebra {
 
 MapPtr interlaced(const MapPtr& map, int fields) {
+  if (fields == 1) return map;
   const LocalIndex count = local_size(*map);
   if (map->isContiguous())
     return Teuchos::rcp(

@@ -25,14 +25,6 @@ double native_residual(Watch::Iteration& iteration) {
   return norms[0];
 }
 
-/// GMRES forms its iterate on demand, as a new vector; CG updates its own in place.
-Teuchos::RCP<const MultiVector> iterate(Watch::Iteration& iteration) {
-  auto& problem = const_cast<Belos::LinearProblem<double, MultiVector, Operator>&>(iteration.getProblem());
-  const auto update = iteration.getCurrentUpdate();
-  if (update.is_null()) return problem.getCurrLHSVec();
-  return problem.updateSolution(update, false);
-}
-
 }  // namespace
 
 void Watch::begin(const LinearStop& stop, int max_iterations) {
@@ -89,6 +81,10 @@ void Watch::fail(const std::string& reason) {
 bool Watch::ask(const Vector& x, int iteration, double residual) {
   asked_ = iteration;
   return stop_.criterion(x, iteration, residual);
+}
+
+Teuchos::RCP<const MultiVector> Watch::iterate(Iteration& iteration) {
+  return const_cast<Belos::LinearProblem<double, MultiVector, Operator>&>(iteration.getProblem()).getCurrLHSVec();
 }
 
 Belos::StatusType Watch::checkStatus(Iteration* iteration) {

@@ -33,6 +33,8 @@ class Watch : public Belos::StatusTest<double, MultiVector, Operator> {
  protected:
   /// Why the numbers of this iteration forbid another one; empty if they do not.
   virtual std::string breakdown(Iteration&, double /*residual*/) const { return ""; }
+  /// x^i, valid until the next iteration. Here: that of a method which updates it in place.
+  virtual Teuchos::RCP<const MultiVector> iterate(Iteration& iteration);
 
  private:
   Verdict judge(Iteration& iteration);

@@ -49,8 +49,9 @@ struct Condensation::Impl {
   Indices original_row, condensed_column;
   LocalIndex kept = 0;  ///< all elements with interior unknowns on this rank come before
   LocalFactors factors;
-  Block3 A;  ///< a block of local matrices
-  Block2 y;  ///< a block of local vectors
+  Block3 A;                               ///< a block of local matrices
+  Block2 y;                               ///< a block of local vectors
+  Teuchos::RCP<algebra::Vector> ghosted;  ///< what remains, with ghosts
 
   core::Comm comm() const { return algebra::comm_of(*rows); }
 
@@ -112,6 +113,7 @@ Condensation::Condensation(const algebra::MapPtr& rows, const algebra::MapPtr& c
   impl_->number(rows, columns, interior);
   impl_->matrix = Teuchos::rcp(new algebra::Matrix(impl_->graph));
   impl_->matrix->fillComplete();
+  if (!impl_->graph->getImporter().is_null()) impl_->ghosted = Teuchos::rcp(new algebra::Vector(impl_->graph->getColMap(), false));
 
   const int n = elements.extent_int(1), count = elements.extent_int(0);
   impl_->factors = LocalFactors(impl_->kept, n, interior, form == LocalForm::positive_definite);
@@ -174,12 +176,11 @@ void Condensation::reduce(const algebra::Vector& b, algebra::Vector& b_condensed
 
 void Condensation::recover(const algebra::Vector& b, const algebra::Vector& x_condensed, algebra::Vector& x) const {
   const Impl& d = *impl_;
-  algebra::Vector ghosted(d.graph->getColMap(), false);
   const auto import = d.graph->getImporter();
-  if (import.is_null()) ghosted.assign(x_condensed);
-  else ghosted.doImport(x_condensed, *import, Tpetra::INSERT);
+  if (!import.is_null()) d.ghosted->doImport(x_condensed, *import, Tpetra::INSERT);
+  const algebra::Vector& with_ghosts = import.is_null() ? x_condensed : *d.ghosted;
   const auto given = b.getLocalViewDevice(Tpetra::Access::ReadOnly);
-  const Input remaining = std::as_const(ghosted).getLocalViewDevice(Tpetra::Access::ReadOnly);
+  const Input remaining = with_ghosts.getLocalViewDevice(Tpetra::Access::ReadOnly);
   const auto values = x.getLocalViewDevice(Tpetra::Access::OverwriteAll);
   const auto original_row = d.original_row;
   Kokkos::parallel_for(

@@ -42,9 +42,13 @@ MembraneProblem::MembraneProblem(MembraneOperator membranes, const algebra::Line
 
 MembraneProblem::MembraneProblem(const std::shared_ptr<MembraneOperator>& membranes, const algebra::LinearParams& params,
                                  const Teuchos::RCP<const MultiVector>& coordinates)
-    : contact::Problem({membranes, &membranes->system}, params, coordinates), membranes_(membranes), measure_(*membranes) {
-  measure_by(measure_.weights(), measure_.reference());
-}
+    : MembraneProblem(membranes, MembraneMeasure(*membranes), params, coordinates) {}
+
+MembraneProblem::MembraneProblem(const std::shared_ptr<MembraneOperator>& membranes, const MembraneMeasure& measure,
+                                 const algebra::LinearParams& params, const Teuchos::RCP<const MultiVector>& coordinates)
+    : contact::Problem({membranes, &membranes->system}, measure.weights(), measure.reference(), params, coordinates),
+      membranes_(membranes),
+      measure_(measure) {}
 
 void MembraneProblem::measure_from(const Rest& rest, const Teuchos::RCP<Vector>* body) {
   measure_.set(*membranes_, rest, body);
@@ -62,9 +66,8 @@ void MembraneProblem::set_inertia(const method::Space& space, double weight) {
 double MembraneProblem::noise(const Vector& X) const { return measure_.round_off(Fields(*membranes_, X).u); }
 
 /// Beside what contact forces open at one point: the way of the membranes, since gaps to what is out of reach say nothing.
-double MembraneProblem::gap_size(const Vector& X, const Vector& K, const Vector& G, const Vector& s) const {
-  const Vector touching(K.getMap());
-  return std::max(measure_.displacement(Fields(*membranes_, X).u), complementarity::largest_argument(touching, G, s));
+double MembraneProblem::gap_size(const Vector& X, const Vector&, const Vector& G, const Vector& s) const {
+  return std::max(measure_.displacement(Fields(*membranes_, X).u), complementarity::largest_multiplier(G, s));
 }
 
 void MembraneProblem::settle(Vector& X) const {

@@ -38,6 +38,8 @@ class MembraneProblem final : public contact::Problem {
  private:
   MembraneProblem(const std::shared_ptr<MembraneOperator>& membranes, const algebra::LinearParams& params,
                   const Teuchos::RCP<const algebra::MultiVector>& coordinates);
+  MembraneProblem(const std::shared_ptr<MembraneOperator>& membranes, const MembraneMeasure& measure, const algebra::LinearParams& params,
+                  const Teuchos::RCP<const algebra::MultiVector>& coordinates);
 
   std::shared_ptr<MembraneOperator> membranes_;
   MembraneMeasure measure_;
