@@ -95,10 +95,10 @@ void Space::move_interface(double t) {
 }
 
 Vector Space::with_ghosts(const Vector& u) const {
-  Vector ghosted(numbering_.columns);
   const auto import = graph_->getImporter();
-  if (import.is_null()) ghosted.assign(u);
-  else ghosted.doImport(u, *import, Tpetra::INSERT);
+  if (import.is_null()) return u;  // the same values, not a copy of them
+  Vector ghosted(numbering_.columns);
+  ghosted.doImport(u, *import, Tpetra::INSERT);
   return ghosted;
 }
 
