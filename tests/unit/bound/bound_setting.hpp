@@ -12,6 +12,8 @@
 namespace thixis::bound {
 
 using algebra::Vector;
+using equilibration::divergence_error;
+using equilibration::jump_of_normal_flux;
 
 inline mesh::Hierarchy hierarchy_of(const std::string& name) {
   mesh::MeshParams params;
