@@ -1,5 +1,6 @@
 #pragma once
-#include "feasible/boundary_lift.hpp"
+#include "deviation/deviation_of_cells.hpp"
+#include "lift/boundary_lift.hpp"
 
 namespace thixis::bound {
 
