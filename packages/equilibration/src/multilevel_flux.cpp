@@ -1,106 +1,11 @@
 #include "thixis/equilibration/multilevel_flux.hpp"
 
 #include <algorithm>
-#include <array>
-#include <map>
 
+#include "descend_kernels.hpp"
 #include "root_flux.hpp"
-#include "thixis/core/assert.hpp"
-#include "thixis/equilibration/cut.hpp"
 
 namespace thixis::equilibration {
-namespace {
-
-constexpr int most_children = 4;
-using Children = View<LocalIndex* [most_children]>;
-
-/// The matrices of a Cut by columns, for kernels.
-struct CutMatrices {
-  int children;
-  Matrix sum, share, lift, restrict;  ///< transposed
-};
-
-Matrix by_columns(const std::string& label, int rows, int columns, const std::vector<double>& values) {
-  const Kokkos::View<double**, Kokkos::LayoutRight> matrix(label, columns, rows);
-  const auto host = Kokkos::create_mirror_view(matrix);
-  for (int i = 0; i < rows; ++i)
-    for (int j = 0; j < columns; ++j) host(j, i) = values.empty() ? 0 : values[i * columns + j];
-  Kokkos::deep_copy(matrix, host);
-  return matrix;
-}
-
-CutMatrices matrices(const Cut& cut, int q) {
-  const int n = reference::dimension(q), flux = 2 * reference::dimension(q + 1), c = cut.children;
-  return {c, by_columns("thixis::equilibration::sum", n, c * n, cut.sum), by_columns("thixis::equilibration::share", c * n, n, cut.share),
-          by_columns("thixis::equilibration::lift", c * flux, c * n, cut.lift),
-          by_columns("thixis::equilibration::restrict", c * flux, flux, cut.restrict)};
-}
-
-/// The cells of one level that are cut alike, with their children.
-struct Family {
-  CutMatrices cut;
-  View<LocalIndex*> parent;
-  Children child;
-};
-
-/// y += M x, M by columns.
-KOKKOS_INLINE_FUNCTION void add_product(const Matrix& M, const double* x, double* y) {
-  const int rows = M.extent_int(1);
-  for (int k = 0; k < M.extent_int(0); ++k) {
-    const double a = x[k];
-    const double* const column = &M(k, 0);
-    for (int i = 0; i < rows; ++i) y[i] += a * column[i];
-  }
-}
-
-constexpr int most_densities = reference::dimension(4), most_fluxes = 2 * reference::dimension(5);
-
-struct Sum {
-  CutMatrices cut;
-  View<const LocalIndex*> parent;
-  Children child;
-  int n;
-  ConstCellTable fine;
-  CellTable coarse;  ///< out, overwritten
-
-  KOKKOS_FUNCTION void operator()(int e) const {
-    double x[most_children * most_densities], y[most_densities];
-    for (int c = 0; c < cut.children; ++c)
-      for (int k = 0; k < n; ++k) x[c * n + k] = child(e, c) < 0 ? 0 : fine(child(e, c), k);
-    for (int k = 0; k < n; ++k) y[k] = 0;
-    add_product(cut.sum, x, y);
-    for (int k = 0; k < n; ++k) coarse(parent(e), k) = y[k];
-  }
-};
-
-/// sigma of the children = restriction of that of the cell + lift of what their densities are beyond that of the cell.
-struct Descend {
-  CutMatrices cut;
-  View<const LocalIndex*> parent;
-  Children child;
-  int n, flux;
-  ConstCellTable fine, coarse, sigma_coarse;
-  CellTable sigma_fine;  ///< out, overwritten
-
-  KOKKOS_FUNCTION void operator()(int e) const {
-    const int c_n = cut.children * n, c_flux = cut.children * flux;
-    double x[most_children * most_densities], y[most_children * most_fluxes], minus[most_densities];
-    for (int c = 0; c < cut.children; ++c)
-      for (int k = 0; k < n; ++k) x[c * n + k] = child(e, c) < 0 ? 0 : fine(child(e, c), k);
-    for (int k = 0; k < n; ++k) minus[k] = -coarse(parent(e), k);
-    add_product(cut.share, minus, x);
-    for (int i = 0; i < c_flux; ++i) y[i] = 0;
-    add_product(cut.restrict, &sigma_coarse(parent(e), 0), y);
-    bool nothing = true;
-    for (int i = 0; i < c_n; ++i) nothing = nothing && x[i] == 0;
-    if (cut.children > 1 && !nothing) add_product(cut.lift, x, y);
-    for (int c = 0; c < cut.children; ++c)
-      if (child(e, c) >= 0)
-        for (int i = 0; i < flux; ++i) sigma_fine(child(e, c), i) = y[c * flux + i];
-  }
-};
-
-}  // namespace
 
 struct MultilevelFlux::Impl {
   core::Comm comm;
@@ -129,8 +34,9 @@ struct MultilevelFlux::Impl {
       density.emplace_back("thixis::equilibration::level_density", count, n);
       sigma.emplace_back("thixis::equilibration::level_flux", count, flux);
     }
-    std::map<std::vector<mesh::ChildShape>, CutMatrices> known;
-    for (int j = 0; j < last; ++j) families.push_back(families_below(j, q, known));
+    Families families_of(q);
+    for (int j = 0; j < last; ++j)
+      families.push_back(families_of(size_of(j), ancestry.levels[j], direct && j + 1 == last ? cell_of_leaf() : std::vector<LocalIndex>()));
     for (auto& level : ancestry.levels) level = {};  // the families know all of it
   }
 
@@ -138,50 +44,11 @@ struct MultilevelFlux::Impl {
     return level == 0 ? static_cast<std::size_t>(ancestry.root->cells) : ancestry.levels[level - 1].parent.size();
   }
 
-  std::vector<Family> families_below(int j, int q, std::map<std::vector<mesh::ChildShape>, CutMatrices>& known) const {
-    const auto& parent = ancestry.levels[j].parent;
-    const auto& shape = ancestry.levels[j].shape;
-    const bool at_leaves = direct && j + 1 == static_cast<int>(ancestry.levels.size());
-    std::vector<LocalIndex> cell_of_leaf;
-    if (at_leaves) {
-      cell_of_leaf.resize(parent.size());
-      for (std::size_t K = 0; K < ancestry.leaf.size(); ++K) cell_of_leaf[ancestry.leaf[K]] = static_cast<LocalIndex>(K);
-    }
-    std::vector<std::array<LocalIndex, most_children>> children(size_of(j), {-1, -1, -1, -1});
-    for (std::size_t c = 0; c < parent.size(); ++c) {
-      auto& of_parent = children[parent[c]];
-      *std::find(of_parent.begin(), of_parent.end(), -1) = static_cast<LocalIndex>(c);
-    }
-    std::map<std::vector<mesh::ChildShape>, std::vector<LocalIndex>> alike;
-    std::vector<mesh::ChildShape> shapes;
-    for (std::size_t K = 0; K < children.size(); ++K) {
-      auto& of_parent = children[K];
-      const auto end = std::find(of_parent.begin(), of_parent.end(), -1);
-      if (end == of_parent.begin()) continue;  // of another rank
-      std::sort(of_parent.begin(), end, [&](LocalIndex a, LocalIndex b) { return shape[a] < shape[b]; });
-      shapes.clear();
-      for (auto c = of_parent.begin(); c != end; ++c) shapes.push_back(shape[*c]);
-      alike[shapes].push_back(static_cast<LocalIndex>(K));
-    }
-    std::vector<Family> found;
-    for (const auto& [key, parents] : alike) {
-      if (known.count(key) == 0) known.emplace(key, matrices(cut(key, q), q));
-      Family family{known.at(key), View<LocalIndex*>("thixis::equilibration::parent", parents.size()),
-                    Children("thixis::equilibration::children", parents.size())};
-      const auto parent_host = Kokkos::create_mirror_view(family.parent);
-      const auto child_host = Kokkos::create_mirror_view(family.child);
-      for (std::size_t e = 0; e < parents.size(); ++e) {
-        parent_host(e) = parents[e];
-        for (int c = 0; c < most_children; ++c) {
-          const LocalIndex child = children[parents[e]][c];
-          child_host(e, c) = child >= 0 && at_leaves ? cell_of_leaf[child] : child;
-        }
-      }
-      Kokkos::deep_copy(family.parent, parent_host);
-      Kokkos::deep_copy(family.child, child_host);
-      found.push_back(family);
-    }
-    return found;
+  /// Where the cells of the last list are among the owned ones.
+  std::vector<LocalIndex> cell_of_leaf() const {
+    std::vector<LocalIndex> cell(ancestry.leaf.size());
+    for (std::size_t K = 0; K < ancestry.leaf.size(); ++K) cell[ancestry.leaf[K]] = static_cast<LocalIndex>(K);
+    return cell;
   }
 
   void reduce(const CellTable& table) const {

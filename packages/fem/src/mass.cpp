@@ -3,7 +3,6 @@
 #include "thixis/algebra/tpetra.hpp"
 #include "thixis/core/error.hpp"
 #include "thixis/method/form.hpp"
-#include "thixis/method/gradient_form.hpp"
 
 namespace thixis::fem {
 namespace {
@@ -29,19 +28,9 @@ Mass::Mass(const method::Space& space) : space_(space) {
   all.held.assign(all.held.size(), -1);
   const method::Numbering numbering = method::number(all, space.mesh().comm);
   entry_of_column_ = numbering.entry_of_column;
-  const int n = space.basis().size();
-  const auto elements = columns_of(space.coefficients(), n, numbering);
-  M_ = Teuchos::rcp(new algebra::Matrix(method::make_graph(numbering.rows, numbering.columns, elements)));
-  M_->fillComplete();
-
-  const auto form = method::with_mass(space, nullptr, 0, 1);
-  const LocalIndex count = elements.extent_int(0), most = std::min(method::cells_per_block(n), count);
-  const method::LocalMatrices A("thixis::fem::local_mass", most, n, n);
-  for (LocalIndex first = 0; first < count; first += most) {
-    const method::LocalMatrices block = Kokkos::subview(A, std::pair(0, std::min(most, count - first)), Kokkos::ALL, Kokkos::ALL);
-    form->matrices(first, block);
-    method::scatter(elements, first, block, *M_);
-  }
+  const auto elements = columns_of(space.coefficients(), space.basis().size(), numbering);
+  const auto graph = method::make_graph(numbering.rows, numbering.columns, elements);
+  M_ = method::assemble(space.mesh().comm, graph, elements, *method::with_mass(space, nullptr, 0, 1));
 
   algebra::LinearParams cg;
   cg.solver = algebra::SolverKind::cg;

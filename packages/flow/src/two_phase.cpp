@@ -136,12 +136,8 @@ class TwoPhaseEvolution final : public models::Evolution {
   }
   models::CellEstimates cell_estimates() const override {
     if (!bound_) return {};
-    const auto copy = [](const fv::View<double*>& values) {
-      const auto host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), values);
-      return std::vector<double>(host.data(), host.data() + host.extent(0));
-    };
     const TwoPhaseBound::Cells& cells = bound_->cells();
-    return {copy(cells.discretization), copy(cells.linearization), copy(cells.algebraic)};
+    return models::cell_estimates(cells.discretization, cells.linearization, cells.algebraic);
   }
   std::optional<models::StepErrors> step_errors() const override {
     if (!of_step_) return std::nullopt;

@@ -87,14 +87,9 @@ class MembraneDiscretization final : public models::Discretization {
   std::vector<std::string> doubts() const override { return bound_ ? bound_->doubts() : std::vector<std::string>(); }
 
   models::CellEstimates cell_estimates() const override {
-    models::CellEstimates of_cells;
-    if (!bound_) return of_cells;
-    const auto copy = [](const mesh::View<double*>& values) {
-      const auto host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), values);
-      return std::vector<double>(host.data(), host.data() + host.extent(0));
-    };
+    if (!bound_) return {};
     const auto& parts = bound_->cells();
-    return {copy(parts.discretization), copy(parts.linearization), copy(parts.algebraic)};
+    return models::cell_estimates(parts.discretization, parts.linearization, parts.algebraic);
   }
 
   std::size_t bytes_of_estimate() const override { return bound_ ? bound_->bytes() : 0; }

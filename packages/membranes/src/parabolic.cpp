@@ -137,12 +137,8 @@ class ParabolicEvolution final : public models::Evolution {
   }
   models::CellEstimates cell_estimates() const override {
     if (!bound_) return {};
-    const auto copy = [](const mesh::View<double*>& values) {
-      const auto host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), values);
-      return std::vector<double>(host.data(), host.data() + host.extent(0));
-    };
     const auto& parts = bound_->cells();
-    return {copy(parts.discretization), copy(parts.linearization), copy(parts.algebraic)};
+    return models::cell_estimates(parts.discretization, parts.linearization, parts.algebraic);
   }
   std::optional<models::StepErrors> step_errors() const override {
     if (!estimated_) return std::nullopt;

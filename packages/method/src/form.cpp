@@ -12,20 +12,23 @@ using algebra::Vector;
 
 ElementSum cell_sum(const Form& form) { return {form.cells(), form.space().coefficients().element_entries, form.space().elements()}; }
 
-/// action(first, A) for blocks of elements with their local matrices.
+/// action(first, A) for blocks of elements with their local matrices, so that these stay in cache.
 template <class Action>
-void over_elements(const core::Comm& comm, const ElementSum& sum, Action action) {
-  if (!sum.form) return;
-  const int n = sum.columns.extent_int(1);
-  const LocalIndex count = sum.columns.extent_int(0), most = std::min(cells_per_block(n), count);
+void over_elements(const core::Comm& comm, const ElementUnknowns& elements, const ElementForm& form, Action action) {
+  const int n = elements.extent_int(1);
+  const LocalIndex count = elements.extent_int(0), most = std::min(cells_per_block(n), count);
   const LocalMatrices A("thixis::method::local_matrices", most, n, n);
   comm.together([&] {
     for (LocalIndex first = 0; first < count; first += most) {
       const LocalMatrices block = Kokkos::subview(A, std::pair(0, std::min(most, count - first)), Kokkos::ALL, Kokkos::ALL);
-      sum.form->matrices(first, block);
+      form.matrices(first, block);
       action(first, block);
     }
   });
+}
+
+void add(const core::Comm& comm, const ElementUnknowns& elements, const ElementForm& form, algebra::Matrix& A) {
+  over_elements(comm, elements, form, [&](LocalIndex first, const LocalMatrices& local) { scatter(elements, first, local, A); });
 }
 
 double sum_of_energies(const Form& form, const Coefficients& uh, const std::vector<Known>& u, double t) {
@@ -50,11 +53,19 @@ void Form::native_flux(const scene::Field&, const Coefficients&, const BoundaryV
   throw core::Error(core::ExitCode::internal, "This form has no flux of its own.");
 }
 
+algebra::MatrixPtr assemble(const core::Comm& comm, const algebra::GraphPtr& graph, const ElementUnknowns& elements,
+                            const ElementForm& form) {
+  auto A = Teuchos::rcp(new algebra::Matrix(graph));
+  A->fillComplete();
+  add(comm, elements, form, *A);
+  return A;
+}
+
 algebra::MatrixPtr assemble(const Form& form) {
   auto S = Teuchos::rcp(new algebra::Matrix(form.space().graph()));
   S->fillComplete();
   for (const ElementSum& sum : {cell_sum(form), form.faces()})
-    over_elements(form.space().mesh().comm, sum, [&](LocalIndex first, const LocalMatrices& A) { scatter(sum.columns, first, A, *S); });
+    if (sum.form) add(form.space().mesh().comm, sum.columns, *sum.form, *S);
   return S;
 }
 
@@ -64,7 +75,7 @@ void apply(const Form& form, const Coefficients& u, Vector& y) {
     if (!sum.form) continue;
     const int n = sum.columns.extent_int(1);
     const Block2 local("thixis::method::local_forces", std::min(cells_per_block(n), sum.columns.extent_int(0)), n);
-    over_elements(form.space().mesh().comm, sum, [&](LocalIndex first, const LocalMatrices& A) {
+    over_elements(form.space().mesh().comm, sum.columns, *sum.form, [&](LocalIndex first, const LocalMatrices& A) {
       const Block2 part = Kokkos::subview(local, std::pair(0, A.extent_int(0)), Kokkos::ALL);
       apply(A, first, sum.entries, u, part);
       scatter(sum.columns, first, part, y);

@@ -1,5 +1,5 @@
 /// The lift of the boundary data: the right values on the boundary, nearly the least energy.
-#include "feasible/boundary_lift.hpp"
+#include "lift/boundary_lift.hpp"
 
 #include "feasible_setting.hpp"
 

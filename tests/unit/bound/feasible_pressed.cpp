@@ -1,6 +1,6 @@
 /// The feasible pair where the multiplier presses on gaps that contact leaves open.
-#include "feasible/continuous_nodes.hpp"
 #include "feasible_setting.hpp"
+#include "lift/continuous_nodes.hpp"
 
 namespace thixis::bound {
 namespace {

@@ -1,8 +1,8 @@
 #include "data/density.hpp"
 
+#include "data/tables.hpp"
 #include "thixis/method/cell_functions.hpp"
 #include "thixis/reference/cell_basis.hpp"
-#include "thixis/reference/quadrature.hpp"
 
 namespace thixis::bound {
 
@@ -30,18 +30,8 @@ Matrix density_monomials() {
 
 Matrix bernstein_to_modal(const reference::CellBasis& basis) {
   const reference::Bernstein& B = basis.bernstein();
-  const int n = B.size;
-  const auto rule = reference::triangle_quadrature(2 * B.degree);
-  const auto phi = reference::Modal(B.degree).values(rule.size(), rule.point.data());
-  std::vector<double> T(n * n, 0.0);
-  for (int q = 0; q < rule.size(); ++q) {
-    const double xi = rule.point[2 * q], eta = rule.point[2 * q + 1], lambda[3] = {1 - xi - eta, xi, eta};
-    double value[reference::max_functions];
-    B.values(lambda, value);
-    for (int k = 0; k < n; ++k)
-      for (int l = 0; l < n; ++l) T[k * n + l] += rule.weight[q] * phi[q * n + k] * value[l];
-  }
-  return method::matrix_view("thixis::bound::bernstein_to_modal", n, n, T);
+  return method::matrix_view("thixis::bound::bernstein_to_modal", B.size, B.size,
+                             bernstein_to_modal(B, reference::Modal(B.degree), B.size));
 }
 
 }  // namespace thixis::bound

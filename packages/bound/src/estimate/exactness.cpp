@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "feasible/lift_tables.hpp"
+#include "lift/lift_tables.hpp"
 #include "thixis/reference/quadrature.hpp"
 
 namespace thixis::bound {

@@ -1,5 +1,5 @@
 #pragma once
-#include "feasible/continuous_nodes.hpp"
+#include "lift/continuous_nodes.hpp"
 
 namespace thixis::bound {
 

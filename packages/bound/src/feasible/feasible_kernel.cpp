@@ -63,7 +63,8 @@ KOKKOS_FUNCTION FeasibleParts::Move FeasibleParts::move_pointwise(int K, LocalIn
     const bool closes = value < zero;
     if (!closes && !follow) continue;
     below += closes ? 1 : 0;
-    // s follows part D, and is moved back by what is left below zero: together by -(gap + D) there
+    // s follows part D, and is moved back by what is left below zero: together
+    // by -(gap + D) there
     double slope[3] = {0, 0, 0}, square = 0;
     if (closes) functions.B.gradient(gap, barycentric, slope);
     else
@@ -101,82 +102,89 @@ KOKKOS_FUNCTION bool FeasibleParts::moves(int K, const double* gap) const {
   return smallest(functions.size(), gap) < (place < 0 ? 0 : deviation.bound(place));
 }
 
-KOKKOS_FUNCTION void FeasibleParts::operator()(int K) const {
-  const int n = functions.size();
-  // s_c -> s_N: the change of each membrane and the gap that is left, at the nodes; then up to the majorant and together
-  double change[2][most], further[2][most], node_gap[most];
-  bool ordered = false, goes_on = false;
-  for (int l = 0; l < n; ++l) {
+/// s_c -> s_N: the change of each membrane and the gap that is left, at the
+/// nodes; then up to the majorant and together.
+KOKKOS_FUNCTION void FeasibleParts::go_to_nodes(int K, AtNodes& at) const {
+  for (int l = 0; l < functions.size(); ++l) {
     const LocalIndex e = of_cells(K, l);
     const double open = s_c[0](e) - s_c[1](e), below = open < 0 ? -open : 0, share = theta.extent(0) > 0 ? theta(e) : apart[0];
-    node_gap[l] = open < 0 ? 0 : open;
-    change[0][l] = share * below;
-    change[1][l] = -(1 - share) * below;
-    ordered = ordered || open < 0;
-    const double above = s_c[1](e) + node_gap[l] - floor(e);
-    further[0][l] = above < 0 ? -above : 0;
-    further[1][l] = 0;
-    if (majorant.extent(0) > 0) node_gap[l] = above < 0 ? 0 : above;
+    at.gap[l] = open < 0 ? 0 : open;
+    at.change[0][l] = share * below;
+    at.change[1][l] = -(1 - share) * below;
+    at.ordered = at.ordered || open < 0;
+    const double above = s_c[1](e) + at.gap[l] - floor(e);
+    at.further[0][l] = above < 0 ? -above : 0;
+    at.further[1][l] = 0;
+    if (majorant.extent(0) > 0) at.gap[l] = above < 0 ? 0 : above;
     const int corner = l - first_vertex;
     if (closed.extent(0) > 0 && corner >= 0 && corner < 3) {
-      const double by = part_closed(node_gap[l], closed(vertices(K, corner)));
-      further[0][l] -= share * by;
-      further[1][l] = (1 - share) * by;
-      node_gap[l] -= by;
+      const double by = part_closed(at.gap[l], closed(vertices(K, corner)));
+      at.further[0][l] -= share * by;
+      at.further[1][l] = (1 - share) * by;
+      at.gap[l] -= by;
     }
-    goes_on = goes_on || further[0][l] != 0 || further[1][l] != 0;
+    at.goes_on = at.goes_on || at.further[0][l] != 0 || at.further[1][l] != 0;
   }
-  const mesh::CellGeometry geometry = mesh::cell_geometry(x, vertices, K);
+}
+
+/// Energies of the steps to s_N and beyond, of u_h -> s_c, of the lift, and of
+/// all polynomials together with it; `at`.change becomes the whole way.
+KOKKOS_FUNCTION FeasibleParts::Squares FeasibleParts::squares(int K, const mesh::CellGeometry& geometry, AtNodes& at) const {
+  const int n = functions.size();
   double c[most];
   const auto square = [&](int alpha, const double* v) {
     functions.to_bernstein(v, c);
     return energy(alpha, K, geometry, c);
   };
-  double nodes2 = 0;
-  for (int alpha = 0; ordered && alpha < count; ++alpha) nodes2 += square(alpha, change[alpha]);
-  double further2 = 0, polynomial2 = goes_on ? 0 : nodes2;
-  for (int alpha = 0; goes_on && alpha < count; ++alpha) {
-    further2 += square(alpha, further[alpha]);
-    for (int l = 0; l < n; ++l) change[alpha][l] += further[alpha][l];
-    polynomial2 += square(alpha, change[alpha]);
+  Squares of;
+  for (int alpha = 0; at.ordered && alpha < count; ++alpha) of.nodes += square(alpha, at.change[alpha]);
+  of.polynomial = at.goes_on ? 0 : of.nodes;
+  for (int alpha = 0; at.goes_on && alpha < count; ++alpha) {
+    of.further += square(alpha, at.further[alpha]);
+    for (int l = 0; l < n; ++l) at.change[alpha][l] += at.further[alpha][l];
+    of.polynomial += square(alpha, at.change[alpha]);
   }
-
-  // u_h -> s_c
-  double averages2 = 0;
   if (of_cells_u.extent(0) > 0) {
-    polynomial2 = 0;
+    const bool moves = at.ordered || at.goes_on;
+    of.polynomial = 0;
     for (int alpha = 0; alpha < count; ++alpha) {
-      double jump[most], total[most];
+      double jump[most];
       for (int l = 0; l < n; ++l) {
         jump[l] = s_c[alpha](of_cells(K, l)) - u[alpha](of_cells_u(K, l));
-        total[l] = change[alpha][l] += jump[l];
+        at.change[alpha][l] += jump[l];
       }
-      averages2 += square(alpha, jump);
-      if (ordered || goes_on) polynomial2 += square(alpha, total);
+      of.averages += square(alpha, jump);
+      if (moves) of.polynomial += square(alpha, at.change[alpha]);
     }
-    if (!ordered && !goes_on) polynomial2 = averages2;
+    if (!moves) of.polynomial = of.averages;
   }
+  const LocalIndex place = lift(K);
+  for (int alpha = 0; place >= 0 && alpha < count; ++alpha) {
+    of.lift += lift.energy(place, alpha);
+    of.polynomial += lift.energy(place, alpha);
+    functions.to_bernstein(at.change[alpha], c);
+    for (int k = 0; k < n; ++k) of.polynomial += 2 * lift.products(place, alpha, k) * c[k];
+  }
+  return of;
+}
 
-  // s_N -> s: the lift, exactly, and what is moved apart
-  double lift2 = 0;
-  if (const LocalIndex place = lift(K); place >= 0) {
-    for (int alpha = 0; alpha < count; ++alpha) {
-      lift2 += lift.energy(place, alpha);
-      polynomial2 += lift.energy(place, alpha);
-      functions.to_bernstein(change[alpha], c);
-      for (int k = 0; k < n; ++k) polynomial2 += 2 * lift.products(place, alpha, k) * c[k];
-    }
-  }
+KOKKOS_FUNCTION void FeasibleParts::operator()(int K) const {
+  AtNodes at;
+  go_to_nodes(K, at);
+  const mesh::CellGeometry geometry = mesh::cell_geometry(x, vertices, K);
+  const Squares of = squares(K, geometry, at);
+
+  // s_N -> s: what is moved apart
   const bool counts = pressed(K);
   double gap[most];
-  functions.to_bernstein(node_gap, gap);
+  functions.to_bernstein(at.gap, gap);
   const LocalIndex place = deviation(K);
   const Move move = place < 0 ? move_polynomial(K, geometry, gap, counts) : move_pointwise(K, place, geometry, gap, counts);
   const double moved = move.square > 0 ? std::sqrt(stiffness(K) * move.square) : 0;
 
-  whole(K) = (polynomial2 > 0 ? std::sqrt(polynomial2) : 0) + moved;
-  at_nodes(K) = std::sqrt(nodes2);
-  rest(K) = std::sqrt(lift2) + moved + std::sqrt(averages2) + std::sqrt(further2);
+  whole(K) = (of.polynomial > 0 ? std::sqrt(of.polynomial) : 0) + moved;
+  at_nodes(K) = std::sqrt(of.nodes);
+  rest(K) = std::sqrt(of.lift) + moved + std::sqrt(of.averages) + std::sqrt(of.further);
   contact(K) = move.contact + (counts ? contact_of_excess(K) : 0);
 }
 

@@ -77,6 +77,9 @@ using FormPtr = std::shared_ptr<const Form>;
 
 // -- the loops over the mesh, all of them collective ------------------------------------------------------------------------------------
 
+/// A_lm = sum_e a_e(psi_m, psi_l) over the elements, l and m unknowns of theirs.
+algebra::MatrixPtr assemble(const core::Comm& comm, const algebra::GraphPtr& graph, const ElementUnknowns& elements,
+                            const ElementForm& form);
 /// S_lm = a(psi_m, psi_l) on the unknowns.
 algebra::MatrixPtr assemble(const Form& form);
 /// y_l = a(u, psi_l), cell by cell without the assembled matrix.

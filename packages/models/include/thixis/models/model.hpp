@@ -26,6 +26,9 @@ struct Sizes {
 struct CellEstimates {
   std::vector<double> discretization, linearization, algebraic;
 };
+/// The same from where bounds keep it.
+CellEstimates cell_estimates(const mesh::View<const double*>& discretization, const mesh::View<const double*>& linearization,
+                             const mesh::View<const double*>& algebraic);
 
 /// The bound of the literature (docs/methods/estimates.md, 7) with all its terms by name.
 struct PublishedEstimate {

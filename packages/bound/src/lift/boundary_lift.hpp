@@ -3,8 +3,9 @@
 #include <memory>
 #include <vector>
 
-#include "feasible/feasible_kernel.hpp"
-#include "feasible/lift_tables.hpp"
+#include "lift/held_faces.hpp"
+#include "lift/lift_equations.hpp"
+#include "lift/lift_of_cells.hpp"
 
 namespace thixis::bound {
 
@@ -33,15 +34,11 @@ class BoundaryLift {
   double energy() const { return energy_; }    ///< |||L||| over all cells of all ranks
   double largest() const { return largest_; }  ///< of |g - g_h| seen on this rank
 
-  /// What q leaves of delta, rho = delta - s (1 - s) q, on owned cells: |||E|||_K of its extension E = (1 - r) rho(s), r = 0 on the face
-  /// and 1 at the opposite vertex, over all faces of the cell,
+  /// Adds what q leaves of delta, rho = delta - s (1 - s) q: |||E|||_K of its extension E = (1 - r) rho(s), r = 0 on the face and 1 at the
+  /// opposite vertex, over all held faces of the owned cell,
   ///
   ///     ∫_K |grad E|² = |K| ∫_0^1 (rho'/|F|)² + (rho' (s - a) - rho)²/H² ds,   a the foot of the height H on the face, by 64 pieces.
-  struct Remainder {
-    LocalIndex cell;
-    double energy;
-  };
-  const std::vector<Remainder>& remainder() const { return remainder_; }
+  void add_remainder(const View<double*>& of_cells) const;
 
   struct Value {
     double value = 0, gradient[2] = {0, 0};
@@ -57,29 +54,15 @@ class BoundaryLift {
   double bound_of_difference(LocalIndex place) const;
 
  private:
-  /// A patch cell with held faces.
-  struct OnBoundary {
-    LocalIndex position;
-    LiftInCell l[2];
-  };
-  void find_faces(const ContinuousNodes& nodes, const std::array<scene::FieldPtr, 2>& tension,
-                  const std::array<method::BoundaryValues, 2>& boundary, const std::vector<double> (&held)[2]);
-  void find_layer();
-  void set_up_equations(const std::array<scene::FieldPtr, 2>& tension);
-  void minimise();
+  void set_layer(const std::vector<LocalIndex>& positions, const std::vector<HeldFaces::Cell>& faces);
   void integrate(const std::array<scene::FieldPtr, 2>& tension);
-
-  struct Equations;
 
   const method::Space& space_;
   mesh::HostMesh host_;
   int count_;
-  double time_;
-  std::shared_ptr<const Equations> equations_;  ///< of v
+  std::shared_ptr<const LiftEquations> equations_;  ///< of v
   bool empty_ = true;
-  std::vector<bool> dirichlet_;
-  std::vector<Remainder> remainder_;
-  std::vector<OnBoundary> boundary_;       ///< until the layer is known
+  std::vector<HeldFaces::Remainder> remainder_;
   View<const LocalIndex*> layer_, owned_;  ///< layer cells of this rank: the owned ones first
   reference::CellBasis basis_;             ///< of v
   std::vector<LiftInCell> lift_[2];        ///< in the layer cells; v is known in the owned ones

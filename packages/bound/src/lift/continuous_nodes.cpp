@@ -1,4 +1,4 @@
-#include "feasible/continuous_nodes.hpp"
+#include "lift/continuous_nodes.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "feasible/lift_tables.hpp"
+#include "lift/lift_tables.hpp"
 
 #include <cmath>
 

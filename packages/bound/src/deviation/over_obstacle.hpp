@@ -1,0 +1,55 @@
+#pragma once
+#include <vector>
+
+#include "lift/boundary_lift.hpp"
+#include "thixis/mesh/host.hpp"
+#include "thixis/method/cell_functions.hpp"
+
+namespace thixis::bound {
+
+/// D = L_1 + psi_I - psi, cell by cell.
+class OverObstacle {
+ public:
+  /// All that is given must outlive it. Collective.
+  OverObstacle(const method::Space& space, const BoundaryLift& lift, const ContinuousNodes& nodes, const scene::FieldPtr& obstacle,
+               const std::vector<double>& psi, const method::Jumps& jumps);
+  /// Collective.
+  Deviation operator()(const std::vector<bool>& dirichlet);
+
+ private:
+  /// Bernstein coefficients of psi_I.
+  void polynomial(LocalIndex K, double* c) const {
+    double local[reference::max_functions];
+    for (int l = 0; l < functions_.size(); ++l) local[l] = psi_[of_cells_(K, l)];
+    functions_.to_bernstein(local, c);
+  }
+  double known_as(LocalIndex K) const;
+  /// psi - psi_I at the points of cell k of a block; the largest.
+  double most(const method::QuadratureBlock& block, LocalIndex k, const View<double*>& value) const;
+  /// Positions of the cells with a deviation; sets `deviates_`.
+  std::vector<LocalIndex> find();
+  void tabulate(const method::QuadratureBlock& block, const std::vector<LocalIndex>& positions);
+  void mark(const std::vector<LocalIndex>& positions, const std::vector<bool>& dirichlet) const;
+
+  const method::Space& space_;
+  const mesh::Mesh& mesh_;
+  mesh::HostMesh host_;
+  const BoundaryLift& lift_;
+  Kokkos::View<const LocalIndex**, Kokkos::LayoutRight, Kokkos::HostSpace> of_cells_;
+  const scene::FieldPtr& obstacle_;
+  const std::vector<double>& psi_;
+  const method::Jumps& jumps_;
+  method::CellFunctions functions_;
+  std::vector<LocalIndex> in_layer_;
+  double size_;  ///< of psi on all ranks
+  method::Gradient slope_;
+  bool deviates_ = false;
+
+  method::CellQuadrature quadrature_;
+  View<LocalIndex*> place_;
+  View<double*> bound_;
+  View<double* [3]> D_;
+  View<bool* [3]> on_held_;
+};
+
+}  // namespace thixis::bound
