@@ -89,7 +89,7 @@ class Flux {
 
  private:
   int n_, flux_;
-  const Cut& cut_;
+  const equilibration::Cut& cut_;
   std::vector<double> density_[levels + 1], sigma_[levels + 1], minus_, rest_;
 };
 
