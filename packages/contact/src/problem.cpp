@@ -121,6 +121,7 @@ algebra::LinearReport Problem::solve(const Vector& R, Vector& dX, const algebra:
 }
 
 void Problem::look_at(const Vector& Xi, const Vector& R) const {
+  if (full()) return;
   if (shown_residual_.is_null()) shown_residual_ = Teuchos::rcp(new Vector(map_));
   if (linearized_->residual_of_shown(R, *shown_residual_)) shown_ = &Xi;
 }

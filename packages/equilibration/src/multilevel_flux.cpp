@@ -89,10 +89,19 @@ double MultilevelFlux::operator()(const ConstCellTable& r, const CellTable& sigm
   const double left =
       in.root(in.density[0].extent(0) > 0 ? ConstCellTable(in.density[0]) : r, in.direct && last == 0 ? sigma : in.sigma[0]);
   for (int j = 0; j < last; ++j)
-    for (const Family& family : in.families[j])
-      Kokkos::parallel_for("thixis::equilibration::descend", Kokkos::RangePolicy<>(0, family.parent.extent_int(0)),
-                           Descend{family.cut, family.parent, family.child, n, flux, density(j + 1), in.density[j], in.sigma[j],
-                                   j + 1 == last && in.direct ? sigma : in.sigma[j + 1]});
+    for (const Family& family : in.families[j]) {
+      Descend kernel;
+      kernel.cut = family.cut;
+      kernel.parent = family.parent;
+      kernel.child = family.child;
+      kernel.n = n;
+      kernel.flux = flux;
+      kernel.fine = density(j + 1);
+      kernel.coarse = in.density[j];
+      kernel.sigma_coarse = in.sigma[j];
+      kernel.sigma_fine = j + 1 == last && in.direct ? sigma : in.sigma[j + 1];
+      Kokkos::parallel_for("thixis::equilibration::descend", Kokkos::RangePolicy<>(0, family.parent.extent_int(0)), kernel);
+    }
   if (in.direct) return left;
   const ConstCellTable table = in.sigma[last];
   Kokkos::parallel_for(

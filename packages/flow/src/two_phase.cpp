@@ -4,14 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "thixis/core/error.hpp"
 #include "thixis/core/text.hpp"
 #include "thixis/core/timer.hpp"
-#include "thixis/fv/host.hpp"
 #include "two_phase_balance.hpp"
 #include "two_phase_bound.hpp"
+#include "two_phase_extremes.hpp"
 #include "two_phase_predictor.hpp"
 #include "two_phase_probes.hpp"
 #include "two_phase_problem.hpp"
@@ -36,11 +35,8 @@ const std::vector<std::string>& names_of_fields() {
 
 /// Size of the pressures that matter: the largest one at the beginning. Collective.
 double reference_pressure(const TwoPhaseOperator& flow, const Vector& X0) {
-  const auto x = algebra::host_view(X0);
-  double largest = 0;
-  for (LocalIndex K = 0; K < flow.grid().owned_cells; ++K) largest = std::max(largest, std::abs(x(unknowns_per_cell * K + pressure)));
-  largest = flow.grid().comm.max(largest);
-  return largest > 0 ? largest : flow.laws().P_r;
+  const double P = largest(flow, X0, pressure);
+  return P > 0 ? P : flow.laws().P_r;
 }
 
 /// The estimate over all steps: roots of sums of squares, as long as every step has one.
@@ -169,19 +165,7 @@ class TwoPhaseEvolution final : public models::Evolution {
   complementarity::KktData kkt_data(const Vector& X) const override;
 
   /// The right end of the gas: where the cells with gas end, or the left end of the domain if there is none.
-  std::optional<double> front(const Vector& X) const override {
-    const auto grid = fv::on_host(flow_.grid());
-    const auto x = algebra::host_view(X);
-    double left = std::numeric_limits<double>::infinity(), right = -left;
-    for (LocalIndex K = 0; K < flow_.grid().owned_cells; ++K)
-      for (int i = 0; i < flow_.grid().corners(); ++i) {
-        const double at = grid.vertex(grid.cell_vertices(K, i), 0);
-        left = std::min(left, at);
-        if (x(unknowns_per_cell * K + gas_saturation) > trace_of_gas) right = std::max(right, at);
-      }
-    left = comm().min(left);
-    return std::max(left, comm().max(right));
-  }
+  std::optional<double> front(const Vector& X) const override { return right_end_of_gas(flow_, X, trace_of_gas); }
 
   std::vector<std::string> series_names() const override {
     std::vector<std::string> names;
@@ -258,12 +242,7 @@ class TwoPhaseEvolution final : public models::Evolution {
   /// Without gas and without a part of the boundary where it is given, the pressure of incompressible water has no level. Collective.
   void require_definite_pressure() const {
     if (!closed_) return;
-    double most = 0;
-    {
-      const auto x = algebra::host_view(std::as_const(*initial_));
-      for (LocalIndex K = 0; K < flow_.grid().owned_cells; ++K) most = std::max(most, x(unknowns_per_cell * K + gas_saturation));
-    }
-    if (comm().max(most) > 0) return;
+    if (largest(flow_, *initial_, gas_saturation) > 0) return;
     throw core::InputError(
         "scene/flow/boundary: no part has kind = state and there is no gas in the beginning, so nothing says what the pressure is; write "
         "kind = state somewhere, or initial/s_g above 0 in some place.");

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "thixis/fv/flux_lift.hpp"
 #include "thixis/fv/nodal_average.hpp"
 #include "two_phase_estimate_kernels.hpp"
+#include "two_phase_extremes.hpp"
 
 namespace thixis::flow {
 namespace {
@@ -31,15 +31,7 @@ struct Extent {
     Kokkos::parallel_reduce(
         "thixis::flow::volume", Range(0, grid.owned_cells), KOKKOS_LAMBDA(LocalIndex K, double& sum) { sum += cell_volume(K); }, volume);
     volume = grid.comm.sum(volume);
-    const auto vertex = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), grid.vertex);
-    std::vector<double> most(4, -std::numeric_limits<double>::infinity());  // of x, y, -x, -y
-    for (LocalIndex v = 0; v < grid.vertices; ++v)
-      for (int i = 0; i < 2; ++i) {
-        most[i] = std::max(most[i], vertex(v, i));
-        most[2 + i] = std::max(most[2 + i], -vertex(v, i));
-      }
-    grid.comm.max(most);
-    diagonal2 = std::pow(most[0] + most[2], 2) + std::pow(most[1] + most[3], 2);
+    diagonal2 = squared_diagonal(grid);
   }
 };
 
@@ -125,9 +117,14 @@ struct TwoPhaseBound::Impl {
   Residual residual(const Balanced& of) const { return {fv::RaviartThomas(grid()), of, step.before, step.source, step.length}; }
 
   void broken_fluxes(const fv::View<PhaseState*>& states, const fv::View<double* [most_faces][components]>& out) const {
-    Kokkos::parallel_for(
-        "thixis::flow::broken_fluxes", Range(0, grid().owned_cells),
-        BrokenFluxes{fv::RaviartThomas(grid()), flow.laws(), grid().face_distance, flow.face_kind(), states, step.outside, p, out});
+    BrokenFluxes kernel{fv::RaviartThomas(grid()), flow.laws()};
+    kernel.distance = grid().face_distance;
+    kernel.kind = flow.face_kind();
+    kernel.states = states;
+    kernel.outside = step.outside;
+    kernel.p = p;
+    kernel.fluxes = out;
+    Kokkos::parallel_for("thixis::flow::broken_fluxes", Range(0, grid().owned_cells), kernel);
   }
 
   /// What of the step does not depend on the iterate.
@@ -242,6 +239,27 @@ struct TwoPhaseBound::Impl {
     eta.worst_linearization = grid().comm.max(lin);
   }
 
+  void find_cell_errors(const fv::View<PhaseState*>& now, const fv::View<double* [components]>& fluxes) const {
+    const bool plain = literature();
+    CellErrors kernel{fv::RaviartThomas(grid()), flow.laws()};
+    for (int c = 0; c < components; ++c) kernel.mass[c] = plain ? 1 : scales.mass[c];
+    kernel.content = plain ? 1 : flow.laws().H * scales.pressure;
+    kernel.length = step.length;
+    kernel.lifted = !plain;
+    kernel.diameter = grid().diameter;
+    kernel.states = now;
+    kernel.states_before = states_before;
+    kernel.face_fluxes = fluxes;
+    kernel.fluxes = broken;
+    kernel.fluxes_before = broken_before;
+    kernel.distances = distances;
+    kernel.sigma = sigma;
+    kernel.rest = rest;
+    kernel.masses_missed = missed;
+    kernel.out = errors;
+    Kokkos::parallel_for("thixis::flow::cell_errors", Range(0, grid().owned_cells), kernel);
+  }
+
   complementarity::Estimate estimate(const Vector& X, const TwoPhaseProblem::Linearization& at) {
     prepare_step();
     const auto states = flow.states(X), now = settled(states);
@@ -251,26 +269,8 @@ struct TwoPhaseBound::Impl {
     const bool solves_a_system = !at.X.is_null();
     lift_residuals(there, solves_a_system ? linearized(states, at) : there, solves_a_system);
 
-    const bool plain = literature();
-    Kokkos::parallel_for("thixis::flow::cell_errors", Range(0, grid().owned_cells),
-                         CellErrors{fv::RaviartThomas(grid()),
-                                    flow.laws(),
-                                    {plain ? 1 : scales.mass[0], plain ? 1 : scales.mass[1]},
-                                    plain ? 1 : flow.laws().H * scales.pressure,
-                                    step.length,
-                                    !plain,
-                                    grid().diameter,
-                                    now,
-                                    states_before,
-                                    there.fluxes,
-                                    broken,
-                                    broken_before,
-                                    distances,
-                                    sigma,
-                                    rest,
-                                    missed,
-                                    errors});
-    complementarity::Estimate eta = plain ? of_literature() : of_residuals();
+    find_cell_errors(now, there.fluxes);
+    complementarity::Estimate eta = literature() ? of_literature() : of_residuals();
     find_worst_cells(eta);
     eta.evident = true;
     return eta;

@@ -236,9 +236,16 @@ fv::View<PhaseState*> TwoPhaseOperator::states(const Vector& X) const {
 
 fv::View<FaceFlux*> TwoPhaseOperator::fluxes(const fv::View<PhaseState*>& states, const FlowStep& step) const {
   const fv::View<FaceFlux*> fluxes("thixis::flow::fluxes", grid_.faces);
-  Kokkos::parallel_for(
-      "thixis::flow::fluxes", Kokkos::RangePolicy<>(0, grid_.faces),
-      FluxesOf{laws_, grid_.face_cells, grid_.face_distance, grid_.face_normal, face_kind_, states, step.outside, step.inflow, fluxes});
+  FluxesOf kernel{laws_};
+  kernel.face_cells = grid_.face_cells;
+  kernel.distance = grid_.face_distance;
+  kernel.normal = grid_.face_normal;
+  kernel.kind = face_kind_;
+  kernel.states = states;
+  kernel.outside = step.outside;
+  kernel.inflow = step.inflow;
+  kernel.fluxes = fluxes;
+  Kokkos::parallel_for("thixis::flow::fluxes", Kokkos::RangePolicy<>(0, grid_.faces), kernel);
   return fluxes;
 }
 

@@ -214,9 +214,14 @@ double TwoPhaseProblem::brought_norm(double length) const {
 
 void TwoPhaseProblem::equations(const Vector& X, Vector& R) const {
   const auto states = flow_.states(X);
-  Kokkos::parallel_for("thixis::flow::equations", Cells(0, flow_.grid().owned_cells),
-                       Equations{Around(flow_.grid(), step_.length, row_scales()), flow_.laws(), states, flow_.fluxes(states, step_),
-                                 step_.before, step_.owed, step_.source, write(R)});
+  Equations kernel{Around(flow_.grid(), step_.length, row_scales()), flow_.laws()};
+  kernel.states = states;
+  kernel.fluxes = flow_.fluxes(states, step_);
+  kernel.before = step_.before;
+  kernel.owed = step_.owed;
+  kernel.source = step_.source;
+  kernel.R = write(R);
+  Kokkos::parallel_for("thixis::flow::equations", Cells(0, flow_.grid().owned_cells), kernel);
 }
 
 fv::View<double* [components]> TwoPhaseProblem::left(const Vector& X) const {
@@ -311,19 +316,17 @@ void TwoPhaseProblem::linearize(const Vector& X, const Vector& a, const Vector& 
   at_.X = Teuchos::rcp(new Vector(X, Teuchos::Copy));
   at_.states = flow_.states(X);
   at_.fluxes = flow_.fluxes(at_.states, step_);
-  const double* unknown = scales_.unknown;
-  Kokkos::parallel_for("thixis::flow::jacobian", Cells(0, flow_.grid().owned_cells),
-                       Fill{Around(flow_.grid(), step_.length, row_scales()),
-                            flow_.laws(),
-                            {unknown[0], unknown[1], unknown[2]},
-                            at_.states,
-                            at_.fluxes,
-                            row_begin_,
-                            own_,
-                            place_,
-                            read(a),
-                            read(b),
-                            A_->getLocalMatrixDevice()});
+  Fill kernel{Around(flow_.grid(), step_.length, row_scales()), flow_.laws()};
+  for (int u = 0; u < unknowns_per_cell; ++u) kernel.unknown[u] = scales_.unknown[u];
+  kernel.states = at_.states;
+  kernel.fluxes = at_.fluxes;
+  kernel.row_begin = row_begin_;
+  kernel.own = own_;
+  kernel.place = place_;
+  kernel.a = read(a);
+  kernel.b = read(b);
+  kernel.A = A_->getLocalMatrixDevice();
+  Kokkos::parallel_for("thixis::flow::jacobian", Cells(0, flow_.grid().owned_cells), kernel);
   solver_.set_matrix(A_, unknowns_per_cell, coordinates_);
 }
 

@@ -252,13 +252,28 @@ NodalAverage::~NodalAverage() = default;
 void NodalAverage::operator()(const View<const Quadratic**>& p, const View<const double**>& given, const View<double**>& square) const {
   const Impl& in = *impl_;
   MultiVector sums(in.nodes, 2 * p.extent(1));
-  Kokkos::parallel_for("thixis::fv::gather_nodes", Range(0, in.position.extent_int(0)),
-                       Gather{in.cells, in.held, in.grid.face_cells, in.grid.centre, in.grid.face_centre, in.position, p, given,
-                              sums.getLocalViewDevice(Tpetra::Access::OverwriteAll)});
+  Gather gather;
+  gather.cells = in.cells;
+  gather.held = in.held;
+  gather.face_cells = in.grid.face_cells;
+  gather.centre = in.grid.centre;
+  gather.face_centre = in.grid.face_centre;
+  gather.position = in.position;
+  gather.p = p;
+  gather.given = given;
+  gather.sums = sums.getLocalViewDevice(Tpetra::Access::OverwriteAll);
+  Kokkos::parallel_for("thixis::fv::gather_nodes", Range(0, in.position.extent_int(0)), gather);
   in.add_up(sums);
-  Kokkos::parallel_for("thixis::fv::distance_from_average", Range(0, in.grid.owned_cells),
-                       Distance{RaviartThomas(in.grid), in.corners, in.face_node, in.position, in.count, p,
-                                sums.getLocalViewDevice(Tpetra::Access::ReadWrite), in.grid.dimension, square});
+  Distance distance{RaviartThomas(in.grid)};
+  distance.corners = in.corners;
+  distance.face_node = in.face_node;
+  distance.position = in.position;
+  distance.count = in.count;
+  distance.p = p;
+  distance.sums = sums.getLocalViewDevice(Tpetra::Access::ReadWrite);
+  distance.dimension = in.grid.dimension;
+  distance.square = square;
+  Kokkos::parallel_for("thixis::fv::distance_from_average", Range(0, in.grid.owned_cells), distance);
 }
 
 }  // namespace thixis::fv
