@@ -10,6 +10,7 @@
 #include "held_boundary.hpp"
 #include "thixis/algebra/tpetra.hpp"
 #include "thixis/core/error.hpp"
+#include "thixis/dg/params.hpp"
 #include "thixis/method/gradient_form.hpp"
 #include "thixis/method/polynomial_space.hpp"
 #include "thixis/reference/modal.hpp"
@@ -22,7 +23,8 @@ using method::BoundaryValues;
 using method::Coefficients;
 using Indices = Kokkos::View<LocalIndex**, Kokkos::LayoutRight>;
 
-bool strong(const method::SpaceOptions& options) { return options.params.boundary == method::BoundaryTreatment::strong; }
+const Params& own(const method::SpaceOptions& options) { return options.params.own.get<Params>(); }
+bool strong(const method::SpaceOptions& options) { return own(options).boundary == BoundaryTreatment::strong; }
 
 /// Faces that an owned cell has and that carry a form: all inside, on the boundary those with weak Dirichlet data.
 std::vector<LocalIndex> faces_with_form(const mesh::Mesh& mesh, const method::SpaceOptions& options) {
@@ -105,12 +107,13 @@ class Space final : public method::PolynomialSpace {
       : PolynomialSpace(mesh, options, structure(mesh, options)),
         dirichlet_(options.dirichlet),
         strong_(strong(options)),
-        penalty_{params_.variant == method::Variant::sipg ? 1.0 : -1.0, params_.penalty * params_.degree * params_.degree} {
+        symmetric_(own(options).variant == Variant::sipg),
+        penalty_{symmetric_ ? 1.0 : -1.0, own(options).penalty * params_.degree * params_.degree} {
     with_form_ = collected(faces_with_form(mesh, options));
     if (strong_) held_ = collected(faces_held(mesh, options));
   }
 
-  bool symmetric() const override { return params_.variant == method::Variant::sipg; }
+  bool symmetric() const override { return symmetric_; }
 
   std::shared_ptr<const method::CellForm> cell_form(const scene::Field& tension) const override {
     return method::gradient_form(mesh_, quadrature_, basis_, tension);
@@ -378,7 +381,7 @@ class Space final : public method::PolynomialSpace {
   }
 
   std::vector<bool> dirichlet_;  ///< by tag
-  bool strong_;
+  bool strong_, symmetric_;
   Penalty penalty_;
   FaceSet with_form_, held_;
   mutable std::optional<FluxTables> flux_tables_;  ///< these two are made when a flux is first asked for
@@ -408,13 +411,13 @@ double sufficient_penalty(const mesh::Mesh& mesh, const method::SpaceOptions& op
 }
 
 void check_mesh(const mesh::Mesh& mesh, const method::SpaceOptions& options) {
-  if (!options.params.symmetric()) return;
+  if (own(options).variant == Variant::nipg) return;
   const double needed = sufficient_penalty(mesh, options);
-  if (options.params.penalty > needed) return;
+  if (own(options).penalty > needed) return;
   throw core::InputError(fmt::format(
       "method/penalty: {:g} is too small for sipg on this mesh, whose thinnest cell asks for more than {:.3g}; write at least {:.3g}, "
       "or method/variant = nipg, which takes any penalty.",
-      options.params.penalty, needed, 1.1 * needed));
+      own(options).penalty, needed, 1.1 * needed));
 }
 
 }  // namespace thixis::dg

@@ -80,10 +80,10 @@ GlobalIndex history_rows_of(const output::StoredCheckpoint& stored) { return sto
 double seconds_of(const output::StoredCheckpoint& stored) { return stored.number("seconds", 0); }
 
 void say_differences(const output::StoredCheckpoint& stored, const RunParams& params) {
-  RunParams before = core::Deck::from_text(stored.deck(), stored.path()).parse(RunParams::schema());
+  RunParams before = core::Deck::from_text(stored.deck(), stored.path()).parse(params.catalogue->schema());
   before.output.directory = params.output.directory;
   std::vector<std::string> of_problem, others;
-  for (const auto& difference : core::differences(RunParams::schema(), before, params)) {
+  for (const auto& difference : core::differences(params.catalogue->schema(), before, params)) {
     const bool another = difference.path.rfind("scene/", 0) == 0 || difference.path == "mesh/file";
     (another ? of_problem : others).push_back(difference.sentence());
   }
@@ -92,8 +92,8 @@ void say_differences(const output::StoredCheckpoint& stored, const RunParams& pa
   if (!others.empty()) core::log::info("other parameters than those of the checkpoint: {}", core::join(others));
 }
 
-bool same_directory(const output::StoredCheckpoint& stored, const std::string& directory) {
-  const auto before = core::Deck::from_text(stored.deck(), stored.path()).parse(RunParams::schema()).output.directory;
+bool same_directory(const output::StoredCheckpoint& stored, const RunParams& params, const std::string& directory) {
+  const auto before = core::Deck::from_text(stored.deck(), stored.path()).parse(params.catalogue->schema()).output.directory;
   const std::string now = absolute(directory + "/");
   return now == absolute(before + "/") || now == absolute(fs::absolute(stored.path()).parent_path().string() + "/");
 }

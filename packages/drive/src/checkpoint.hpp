@@ -44,7 +44,7 @@ GlobalIndex history_rows_of(const output::StoredCheckpoint& stored);
 double seconds_of(const output::StoredCheckpoint& stored);
 
 /// Whether the run that left the checkpoint wrote into this directory, or the checkpoint lies in it (results that were moved).
-bool same_directory(const output::StoredCheckpoint& stored, const std::string& directory);
+bool same_directory(const output::StoredCheckpoint& stored, const RunParams& params, const std::string& directory);
 
 /// Throws InputError unless the deck's hierarchy has the level of the checkpoint with as many cells, and the start is nested if there are
 /// finer ones.

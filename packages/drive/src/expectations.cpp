@@ -11,7 +11,7 @@ struct Clauses {
   std::vector<std::string> missed;
 
   template <class T, class Bound>
-  void at_most(const char* what, const std::optional<T>& value, const std::optional<Bound>& bound) {
+  void at_most(const std::string& what, const std::optional<T>& value, const std::optional<Bound>& bound) {
     if (!bound) return;
     if (!value) missed.push_back(fmt::format("{} is not known", what));
     else if (!(*value <= *bound))
@@ -22,6 +22,10 @@ struct Clauses {
     if (!value) missed.push_back(fmt::format("{} is not known", what));
     else if (!(*value >= bounds->at(0) && *value <= bounds->at(1)))
       missed.push_back(fmt::format("{} {:.5g} is not between {:.5g} and {:.5g}", what, *value, bounds->at(0), bounds->at(1)));
+  }
+  void within(const models::Expectation& expected) {
+    if (!expected.least) return at_most(expected.what, expected.value, expected.most);
+    between(expected.what, expected.value, std::vector<double>{*expected.least, *expected.most});
   }
   void promised(const std::optional<complementarity::Promise>& promise, const std::optional<complementarity::Promise>& expected) {
     if (!expected) return;
@@ -85,9 +89,7 @@ std::vector<std::string> missed(const ExpectParams& expect, const Found& found) 
     clauses.between("effectivity", found.effectivity, expect.effectivity_between);
     clauses.at_most("number of time steps", found.steps, expect.steps_at_most);
     clauses.at_most("number of steps that were begun again", found.retries, expect.retries_at_most);
-    clauses.at_most("defect of the water balance", found.water_balance, expect.water_balance_at_most);
-    clauses.at_most("defect of the hydrogen balance", found.hydrogen_balance, expect.hydrogen_balance_at_most);
-    clauses.between("front", found.front, expect.front_between);
+    for (const models::Expectation& expected : found.of_model) clauses.within(expected);
     clauses.between("energy norm", found.energy_norm, expect.energy_norm_between);
     clauses.between("contact area", area(found), expect.contact_area_between);
     clauses.between("contact force", force(found), expect.force_between);

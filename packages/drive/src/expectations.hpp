@@ -3,6 +3,7 @@
 
 #include "thixis/drive/params.hpp"
 #include "thixis/drive/stationary.hpp"
+#include "thixis/models/evolution.hpp"
 
 namespace thixis::drive {
 
@@ -12,7 +13,7 @@ struct Found {
   std::optional<double> energy_error, kkt, bound, effectivity;
   std::optional<complementarity::Promise> promise;
   std::optional<int> newton_iterations, newton_finest, linear_iterations, steps, retries;
-  std::optional<double> water_balance, hydrogen_balance, front;
+  std::vector<models::Expectation> of_model;
   std::optional<double> energy_norm;
   std::optional<models::Contact> contact;
   std::map<std::string, double> at;  ///< by the names of ExpectParams::at

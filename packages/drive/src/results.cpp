@@ -95,7 +95,7 @@ output::Summary begin_summary(const RunParams& params, const models::Model& mode
   summary.exit_code = static_cast<int>(verdict.code);
   summary.model = model.name();
   summary.problem_case = model.case_name();
-  summary.method = method::to_text(params.method.name);
+  summary.method = params.method.name;
   summary.degree = params.method.degree;
   summary.ranks = comm.size();
   summary.threads = Kokkos::DefaultExecutionSpace::concurrency();

@@ -107,7 +107,7 @@ core::ExitCode run_stationary(const RunParams& params, const models::StationaryM
     replay(*stored, hierarchy, checkpoint);
     check_restart(*stored, params, hierarchy);
   }
-  const bool goes_on = stored && same_directory(*stored, directory.path());
+  const bool goes_on = stored && same_directory(*stored, params, directory.path());
   open(directory, params, deck, goes_on, comm);
   introduce(deck, model, comm, versions);
   if (stored) {

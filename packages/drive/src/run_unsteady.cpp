@@ -48,9 +48,7 @@ Found found(const RunParams& params, const models::Model& model, const models::E
     found.linear_iterations = outcome.at.linear_iterations;
     found.steps = outcome.at.step;
     found.retries = outcome.at.retries;
-    for (const models::Balance& balance : evolution.balances())
-      (balance.name == "water" ? found.water_balance : found.hydrogen_balance) = balance.worst_step;
-    found.front = evolution.front(*outcome.X);
+    found.of_model = evolution.expectations(params.expect, *outcome.X);
     found.contact = evolution.contact(*outcome.X);
     if (!params.expect.at.empty())
       found.at = values_by_name(params.expect, model.point_fields(), evolution.values_at(wanted(params).expected, *outcome.X));
@@ -151,11 +149,7 @@ output::Summary summarize(const RunParams& params, const models::Model& model, c
     summary.kkt = {kkt.infeasible, kkt.negative, kkt.complementary, kkt.between_nodes, kkt.equilibrium};
   }
   summary.in_time = output::SummaryTime{outcome.at.step, outcome.at.retries, outcome.at.time};
-  if (const auto balances = evolution.balances(); !balances.empty()) {
-    summary.flow.emplace();
-    for (const models::Balance& balance : balances) summary.flow->mass_balance.push_back({balance.name, balance.worst_step, balance.total});
-    summary.flow->front = evolution.front(*outcome.X);
-  }
+  summary.of_model = evolution.summary(*outcome.X);
   return summary;
 }
 
@@ -182,7 +176,8 @@ void check_restart(const output::StoredCheckpoint& stored, const StoredEvolution
   if (from.at.time >= params.time->end)
     throw core::InputError(fmt::format("time/end: the checkpoint '{}' is at time {:g} already; write a later end than {:g}.", stored.path(),
                                        from.at.time, params.time->end));
-  if (goes_on && core::Deck::from_text(stored.deck(), stored.path()).parse(RunParams::schema()).output.probes != params.output.probes)
+  if (goes_on &&
+      core::Deck::from_text(stored.deck(), stored.path()).parse(params.catalogue->schema()).output.probes != params.output.probes)
     throw core::InputError(
         "output/probes: series.csv goes on with the probes it has; leave them as they were, or write to another folder with --output.");
   evolution.restore(stored);  // throws where scene, mesh or method are others
@@ -207,7 +202,7 @@ core::ExitCode run_unsteady(const RunParams& params, const models::UnsteadyModel
   }
   output::RunDirectory directory(params.output.directory);
   const EvolutionCheckpoint checkpoint(directory.checkpoint(), params, deck);
-  const bool goes_on = stored && same_directory(*stored, directory.path());
+  const bool goes_on = stored && same_directory(*stored, params, directory.path());
   const StoredEvolution from = stored ? stored_evolution(*stored) : StoredEvolution{};
   if (stored) check_restart(*stored, from, params, goes_on, *evolution);
   evolution->check(known_times(*params.time, evolution->jumps(), from.at.time));

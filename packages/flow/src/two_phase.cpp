@@ -79,7 +79,7 @@ class BoundSoFar {
 
 class TwoPhaseEvolution final : public models::Evolution {
  public:
-  TwoPhaseEvolution(fv::Grid grid, const scene::TwoPhaseScene& scene, const algebra::LinearParams& linear, double seconds_per_unit,
+  TwoPhaseEvolution(fv::Grid grid, const TwoPhaseScene& scene, const algebra::LinearParams& linear, double seconds_per_unit,
                     const std::vector<models::Probe>& probes, const TwoPhaseBoundParams& bound)
       : bound_params_(bound),
         flow_(std::move(grid), scene, seconds_per_unit),
@@ -173,7 +173,7 @@ class TwoPhaseEvolution final : public models::Evolution {
   complementarity::KktData kkt_data(const Vector& X) const override;
 
   /// The right end of the gas: where the cells with gas end, or the left end of the domain if there is none.
-  std::optional<double> front(const Vector& X) const override {
+  double front(const Vector& X) const {
     const auto grid = fv::on_host(flow_.grid());
     const auto x = algebra::host_view(X);
     double left = std::numeric_limits<double>::infinity(), right = -left;
@@ -185,6 +185,22 @@ class TwoPhaseEvolution final : public models::Evolution {
       }
     left = comm().min(left);
     return std::max(left, comm().max(right));
+  }
+
+  std::vector<models::Expectation> expectations(const models::ExpectParams& expect, const Vector& X) const override {
+    const ExpectParams& own = expect.own.get<ExpectParams>();
+    std::vector<models::Expectation> all;
+    for (const models::Balance& balance : balances())
+      if (const auto& most = balance.name == "water" ? own.water_balance_at_most : own.hydrogen_balance_at_most)
+        all.push_back({"defect of the " + balance.name + " balance", balance.worst_step, {}, most});
+    if (const auto& bounds = own.front_between) all.push_back({"front", front(X), bounds->at(0), bounds->at(1)});
+    return all;
+  }
+  std::vector<output::SummaryEntry> summary(const Vector& X) const override {
+    output::SummaryEntry masses{"mass_balance", {}, {}};
+    for (const models::Balance& balance : balances()) masses.parts.emplace_back(balance.name, balance.worst_step);
+    for (const models::Balance& balance : balances()) masses.parts.emplace_back(balance.name + "_total", balance.total);
+    return {masses, {"front", front(X), {}}};
   }
 
   std::vector<std::string> series_names() const override {
@@ -246,9 +262,9 @@ class TwoPhaseEvolution final : public models::Evolution {
   static constexpr const char* of_before = " before";
   static constexpr const char* names_of_owed[components] = {"owed water", "owed hydrogen"};
 
-  static bool is_closed(const scene::TwoPhaseScene& scene) {
+  static bool is_closed(const TwoPhaseScene& scene) {
     return std::none_of(scene.boundary.begin(), scene.boundary.end(),
-                        [](const auto& part) { return part.second.kind == scene::FlowBoundaryKind::state; });
+                        [](const auto& part) { return part.second.kind == FlowBoundaryKind::state; });
   }
 
   /// The first step. Gas beside water that could dissolve it would leave at once for Newton's method, which takes the smaller of s_g and G
@@ -396,7 +412,7 @@ std::vector<output::FieldData> TwoPhaseEvolution::fields(const Vector& X, const 
 
 class TwoPhaseModel final : public models::UnsteadyModel {
  public:
-  TwoPhaseModel(scene::TwoPhaseScene scene, algebra::LinearParams linear, double seconds_per_unit, const TwoPhaseBoundParams& bound)
+  TwoPhaseModel(TwoPhaseScene scene, algebra::LinearParams linear, double seconds_per_unit, const TwoPhaseBoundParams& bound)
       : scene_(std::move(scene)), linear_(linear), seconds_per_unit_(seconds_per_unit), bound_(bound) {}
 
   std::string name() const override { return "two-phase"; }
@@ -415,7 +431,7 @@ class TwoPhaseModel final : public models::UnsteadyModel {
   }
 
  private:
-  scene::TwoPhaseScene scene_;
+  TwoPhaseScene scene_;
   algebra::LinearParams linear_;
   double seconds_per_unit_;
   TwoPhaseBoundParams bound_;
@@ -423,7 +439,7 @@ class TwoPhaseModel final : public models::UnsteadyModel {
 
 }  // namespace
 
-std::unique_ptr<models::UnsteadyModel> two_phase(scene::TwoPhaseScene scene, algebra::LinearParams linear, double seconds_per_unit,
+std::unique_ptr<models::UnsteadyModel> two_phase(TwoPhaseScene scene, algebra::LinearParams linear, double seconds_per_unit,
                                                  const TwoPhaseBoundParams& bound) {
   return std::make_unique<TwoPhaseModel>(std::move(scene), linear, seconds_per_unit, bound);
 }

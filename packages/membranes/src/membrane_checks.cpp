@@ -47,7 +47,7 @@ PointList points_on(const mesh::Mesh& mesh, const mesh::HostMesh& host, std::siz
 }
 
 /// The deck's names of what belongs to membrane alpha: g1, g2; g over an obstacle.
-std::string named(const scene::MembraneScene& scene, const char* letter, int alpha) {
+std::string named(const MembraneScene& scene, const char* letter, int alpha) {
   return scene.count == 1 ? letter : letter + std::to_string(alpha + 1);
 }
 
@@ -55,7 +55,7 @@ std::string and_time(double t) { return t > 0 ? fmt::format(", t = {:.6g}", t) :
 
 /// Throws where the values of two held parts of the boundary differ at a vertex where they meet: no function of finite energy has such
 /// boundary values. Every owned vertex has all its faces on this rank. Collective.
-void check_jumps(const scene::MembraneScene& scene, const Boundary& boundary, const mesh::Mesh& mesh, double t) {
+void check_jumps(const MembraneScene& scene, const Boundary& boundary, const mesh::Mesh& mesh, double t) {
   const std::size_t tags = boundary.dirichlet.size();
   const auto host = mesh::on_host(mesh);
   std::vector<std::vector<double>> values(tags * scene.count);
@@ -110,7 +110,7 @@ void check_jumps(const scene::MembraneScene& scene, const Boundary& boundary, co
 
 /// Throws where a tension is not positive or another function of the user is not finite: at the points where the run will ask for it, but
 /// before anything is written. Collective.
-void check_data(const scene::MembraneScene& scene, const method::MethodParams& method, const mesh::Mesh& mesh) {
+void check_data(const MembraneScene& scene, const method::MethodParams& method, const mesh::Mesh& mesh) {
   const auto quadrature = method::make_quadrature(mesh, method::owned_cells(mesh), method.order(), scene.interface_level_set);
   double lowest[2] = {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
   std::vector<scene::FieldPtr> exact[2];
@@ -162,7 +162,7 @@ void check_initial(const std::array<scene::FieldPtr, 3>& initial, const mesh::Me
 
 }  // namespace
 
-void check_boundary(const scene::MembraneScene& scene, const Boundary& boundary, const method::MethodParams& method, const mesh::Mesh& mesh,
+void check_boundary(const MembraneScene& scene, const Boundary& boundary, const method::MethodParams& method, const mesh::Mesh& mesh,
                     double t) {
   const std::vector<double> inside = reference::line_quadrature(method.order()).point;
   std::vector<double> held = {0, 1};  // the ends, and for degree >= 2 inside, too
@@ -192,7 +192,7 @@ void check_boundary(const scene::MembraneScene& scene, const Boundary& boundary,
   check_jumps(scene, boundary, mesh, t);
 }
 
-void check_boundary(const scene::MembraneScene& scene, const mesh::MeshParams& params, const std::vector<double>& times) {
+void check_boundary(const MembraneScene& scene, const mesh::MeshParams& params, const std::vector<double>& times) {
   if (params.generator == mesh::Generator::file) return;
   mesh::MeshParams coarse = params;
   coarse.refinements = 0;
@@ -210,9 +210,9 @@ bool steady(const std::vector<scene::FieldPtr>& fields) {
   return std::all_of(fields.begin(), fields.end(), [](const scene::FieldPtr& field) { return !field || field->steady(); });
 }
 
-bool steady_boundary(const scene::MembraneScene& scene) {
-  const auto is_steady = [](const scene::BoundaryCondition& condition) {
-    return condition.kind == scene::BoundaryKind::neumann || steady({condition.value[0], condition.value[1]});
+bool steady_boundary(const MembraneScene& scene) {
+  const auto is_steady = [](const BoundaryCondition& condition) {
+    return condition.kind == BoundaryKind::neumann || steady({condition.value[0], condition.value[1]});
   };
   return is_steady(scene.default_boundary) &&
          std::all_of(scene.boundary.begin(), scene.boundary.end(), [&](const auto& part) { return is_steady(part.second); });
@@ -246,7 +246,7 @@ void check_order(const scene::FieldPtr (&initial)[2], const method::MethodParams
   });
 }
 
-Boundary boundary_of(const scene::MembraneScene& scene, const mesh::Mesh& mesh) {
+Boundary boundary_of(const MembraneScene& scene, const mesh::Mesh& mesh) {
   std::vector<std::string> names;
   for (const auto& [name, condition] : scene.boundary) names.push_back(name);
   Boundary boundary;
@@ -254,7 +254,7 @@ Boundary boundary_of(const scene::MembraneScene& scene, const mesh::Mesh& mesh) 
   for (std::size_t tag = 0; tag < mesh.tags.size(); ++tag) {
     const auto given = scene.boundary.find(boundary.named[tag]);
     const auto& condition = given == scene.boundary.end() ? scene.default_boundary : given->second;
-    const bool dirichlet = condition.kind == scene::BoundaryKind::dirichlet;
+    const bool dirichlet = condition.kind == BoundaryKind::dirichlet;
     const bool known = condition.value[0] && (scene.count == 1 || condition.value[1]);
     if (dirichlet && !known)
       throw core::InputError(fmt::format(
@@ -269,7 +269,7 @@ Boundary boundary_of(const scene::MembraneScene& scene, const mesh::Mesh& mesh) 
   return boundary;
 }
 
-void check_held(const scene::MembraneScene& scene, const Boundary& boundary) {
+void check_held(const MembraneScene& scene, const Boundary& boundary) {
   if (std::find(boundary.dirichlet.begin(), boundary.dirichlet.end(), true) != boundary.dirichlet.end()) return;
   throw core::InputError(
       scene.obstacle
@@ -278,7 +278,7 @@ void check_held(const scene::MembraneScene& scene, const Boundary& boundary) {
           : "scene/boundary: no part of the boundary has kind dirichlet, so the membranes are free to float away; fix at least one.");
 }
 
-void check_functions(const scene::MembraneScene& scene, const std::array<scene::FieldPtr, 3>& initial, const method::MethodParams& method,
+void check_functions(const MembraneScene& scene, const std::array<scene::FieldPtr, 3>& initial, const method::MethodParams& method,
                      const mesh::Mesh& mesh) {
   const Boundary boundary = boundary_of(scene, mesh);
   check_boundary(scene, boundary, method, mesh, 0);
@@ -298,7 +298,7 @@ std::vector<mesh::Place> place(const std::vector<models::Probe>& probes, const m
   return places;
 }
 
-void check_field_names(const scene::MembraneScene& scene, const std::vector<std::string>& names) {
+void check_field_names(const MembraneScene& scene, const std::vector<std::string>& names) {
   std::vector<std::string> known = {"lambda", "gap", "active"};
   for (int alpha = scene.count - 1; alpha >= 0; --alpha) known.insert(known.begin(), named(scene, "u", alpha));
   for (const auto& name : names)

@@ -6,7 +6,7 @@ namespace thixis::membranes {
 
 /// A solution X with its membranes as functions.
 struct MembraneSolution {
-  const scene::MembraneScene& scene;
+  const MembraneScene& scene;
   const method::Space& space;
   const MembraneProblem& problem;
   const Teuchos::RCP<algebra::Vector>* body;  ///< loads, before Dirichlet data are moved to the right

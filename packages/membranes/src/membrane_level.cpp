@@ -52,7 +52,7 @@ std::vector<double> values_of(const scene::Field& field, const std::vector<model
 
 }  // namespace
 
-MembraneLevel::MembraneLevel(const scene::MembraneScene& scene, double origin, const method::SpaceFactory& make_space,
+MembraneLevel::MembraneLevel(const MembraneScene& scene, double origin, const method::SpaceFactory& make_space,
                              const method::MethodParams& method, const algebra::LinearParams& linear, const mesh::Mesh& mesh)
     : scene_(scene), origin_(origin), method_(method), boundary_(boundary_of(scene, mesh)) {
   space_ = make_space(mesh, {boundary_.dirichlet, scene.interface_level_set, method});
@@ -67,7 +67,7 @@ MembraneLevel::MembraneLevel(const scene::MembraneScene& scene, double origin, c
   set_lifts();
   nothing_ = Coefficients("thixis::membranes::nothing", lift_[0].extent(0));
   set_loads();
-  problem_ = std::make_unique<MembraneProblem>(membrane_operator(scene, *space_, method, lift_, body_), linear, space_->coordinates());
+  problem_ = std::make_unique<MembraneProblem>(membrane_operator(scene, *space_, lift_, body_), linear, space_->coordinates());
   require_stiffness();
   if (scene.count == 1) obstacle_ = space_->complete(*problem_->membranes().obstacle, lift_of_obstacle());
   measure_from_rest();
@@ -85,10 +85,9 @@ void MembraneLevel::require_stiffness() const {
     least = space_->mesh().comm.min(least);
     if (least > 0) continue;
     throw core::InputError(
-        fmt::format("method/penalty: {} is too small for the tension {}, which varies by orders of magnitude inside a cell: an entry of "
-                    "the diagonal is "
-                    "{:.2e}; write a larger one, finer cells (mesh/refinements), method/variant = nipg, or method/name = fem.",
-                    core::to_text(method_.penalty), scene_.count == 1 ? "mu" : fmt::format("mu{}", alpha + 1), least));
+        fmt::format("method/penalty: it is too small for the tension {}, which varies by orders of magnitude inside a cell: an entry of "
+                    "the diagonal is {:.2e}; write a larger one, finer cells (mesh/refinements), or another method.",
+                    scene_.count == 1 ? "mu" : fmt::format("mu{}", alpha + 1), least));
   }
 }
 
@@ -256,7 +255,7 @@ std::vector<output::FieldData> MembraneLevel::shown(const Vector& X, const compl
   return shown;
 }
 
-std::vector<std::string> MembraneLevel::point_fields(const scene::MembraneScene& scene) {
+std::vector<std::string> MembraneLevel::point_fields(const MembraneScene& scene) {
   std::vector<std::string> names;
   for (int alpha = 0; alpha < scene.count; ++alpha) names.push_back(displacement(scene.count, alpha));
   names.insert(names.end(), {"lambda", "gap"});

@@ -18,10 +18,10 @@ namespace thixis::membranes {
 class MembraneLevel {
  public:
   /// At time 0. The scene, whose heights are counted from `origin`, and the mesh must outlive it. Collective.
-  MembraneLevel(const scene::MembraneScene& scene, double origin, const method::SpaceFactory& make_space,
-                const method::MethodParams& method, const algebra::LinearParams& linear, const mesh::Mesh& mesh);
+  MembraneLevel(const MembraneScene& scene, double origin, const method::SpaceFactory& make_space, const method::MethodParams& method,
+                const algebra::LinearParams& linear, const mesh::Mesh& mesh);
 
-  const scene::MembraneScene& scene() const { return scene_; }
+  const MembraneScene& scene() const { return scene_; }
   int count() const { return scene_.count; }
   const method::Space& space() const { return *space_; }
   const method::PolynomialSpace& polynomials() const { return dynamic_cast<const method::PolynomialSpace&>(*space_); }
@@ -59,7 +59,7 @@ class MembraneLevel {
                                        const std::vector<std::string>& names) const;
 
   /// u_alpha, lambda, gap: what values_at gives for each point.
-  static std::vector<std::string> point_fields(const scene::MembraneScene& scene);
+  static std::vector<std::string> point_fields(const MembraneScene& scene);
   std::vector<double> values_at(const std::vector<models::Probe>& probes, const algebra::Vector& X) const;
   models::Contact contact(const algebra::Vector& X) const;
   models::Rounding rounding(const algebra::Vector& X) const;
@@ -81,7 +81,7 @@ class MembraneLevel {
   const algebra::Vector& areas() const;
   std::vector<double> share_of_upper_tension() const;
 
-  const scene::MembraneScene& scene_;
+  const MembraneScene& scene_;
   double origin_;  ///< of heights
   method::MethodParams method_;
   std::unique_ptr<method::Space> space_;

@@ -25,11 +25,11 @@ Small only(int begin, int end) {
 }
 
 /// Matrices of tensions that are constants: one, times each of them; else one for each membrane.
-contact::BlockOperator block_operator(const scene::MembraneScene& scene, const method::Space& space, const method::MethodParams& method) {
+contact::BlockOperator block_operator(const MembraneScene& scene, const method::Space& space) {
   contact::BlockOperator S;
   S.fields = scene.count;
   auto cells = std::make_shared<contact::CellForms>(contact::CellForms{space.elements(), space.interior(), space.symmetric(), {}});
-  const bool condensed = method.condensed() && space.interior() > 0;
+  const bool condensed = space.interior() > 0;
   const auto add = [&](const scene::Field& tension, const Small& weight) {
     S.matrix.push_back(space.stiffness(tension));
     S.weight.push_back(weight);
@@ -80,10 +80,10 @@ void MembraneOperator::apply(int alpha, const Vector& u, Vector& y, double c, do
   system.S.matrix[matrix_of(alpha)]->apply(u, y, Teuchos::NO_TRANS, c * factor(alpha), d);
 }
 
-MembraneOperator membrane_operator(const scene::MembraneScene& scene, const method::Space& space, const method::MethodParams& method,
-                                   const method::Coefficients* lift, const Teuchos::RCP<Vector>* body) {
+MembraneOperator membrane_operator(const MembraneScene& scene, const method::Space& space, const method::Coefficients* lift,
+                                   const Teuchos::RCP<Vector>* body) {
   MembraneOperator membranes;
-  membranes.system.S = block_operator(scene, space, method);
+  membranes.system.S = block_operator(scene, space);
   membranes.system.load = Teuchos::rcp(new MultiVector(space.map(), scene.count));
   for (int alpha = 0; alpha < scene.count; ++alpha) {
     // what the Dirichlet data exert on the unknowns moves to the right

@@ -12,7 +12,7 @@
 #include "thixis/bound/guaranteed_bound.hpp"
 #include "thixis/bound/published_bound.hpp"
 #include "thixis/core/timer.hpp"
-#include "thixis/scene/heights.hpp"
+#include "thixis/scene/shifted.hpp"
 
 namespace thixis::membranes {
 namespace {
@@ -22,7 +22,7 @@ using method::Coefficients;
 
 class MembraneDiscretization final : public models::Discretization {
  public:
-  MembraneDiscretization(const scene::MembraneScene& scene, double origin, const method::SpaceFactory& make_space,
+  MembraneDiscretization(const MembraneScene& scene, double origin, const method::SpaceFactory& make_space,
                          const method::MethodParams& method, const algebra::LinearParams& linear,
                          const std::array<scene::FieldPtr, 3>& initial, const mesh::Hierarchy& hierarchy, int level)
       : scene_(scene), initial_(initial), hierarchy_(hierarchy), level_(level) {
@@ -32,6 +32,7 @@ class MembraneDiscretization final : public models::Discretization {
 
   complementarity::Problem& problem() override { return on_mesh_->problem(); }
 
+  int sweeps() const override { return space().symmetric() ? 10 : 0; }
   models::Sizes sizes() const override {
     const MembraneProblem& problem = on_mesh_->problem();
     return {problem.unknowns(), problem.rows(), problem.nonzeros()};
@@ -139,7 +140,7 @@ class MembraneDiscretization final : public models::Discretization {
  private:
   const method::Space& space() const { return on_mesh_->space(); }
 
-  const scene::MembraneScene& scene_;
+  const MembraneScene& scene_;
   const std::array<scene::FieldPtr, 3>& initial_;
   const mesh::Hierarchy& hierarchy_;
   int level_;
@@ -149,7 +150,7 @@ class MembraneDiscretization final : public models::Discretization {
 
 class Membranes final : public models::StationaryModel {
  public:
-  Membranes(scene::MembraneScene scene, method::SpaceFactory make_space, method::MethodParams method, algebra::LinearParams linear,
+  Membranes(MembraneScene scene, method::SpaceFactory make_space, method::MethodParams method, algebra::LinearParams linear,
             std::array<scene::FieldPtr, 3> initial, method::MeshCheck check_mesh)
       : scene_(std::move(scene)),
         make_space_(std::move(make_space)),
@@ -183,15 +184,15 @@ class Membranes final : public models::StationaryModel {
   /// The functions with heights counted from `origin`, where the membranes are held.
   struct Counted {
     double origin;
-    scene::MembraneScene scene;
+    MembraneScene scene;
     std::array<scene::FieldPtr, 3> initial;
   };
   void count_from(double origin) const {
-    counted_ = Counted{origin, scene::counted_from(origin, scene_), initial_};
+    counted_ = Counted{origin, counted_from(origin, scene_), initial_};
     for (int alpha = 0; alpha < scene_.count; ++alpha) counted_->initial[alpha] = scene::shifted(initial_[alpha], -origin);
   }
 
-  scene::MembraneScene scene_;
+  MembraneScene scene_;
   mutable std::optional<Counted> counted_;  ///< since the first mesh
   method::SpaceFactory make_space_;
   method::MeshCheck check_mesh_;
@@ -202,7 +203,7 @@ class Membranes final : public models::StationaryModel {
 
 }  // namespace
 
-std::unique_ptr<models::StationaryModel> membranes(scene::MembraneScene scene, method::SpaceFactory make_space, method::MethodParams method,
+std::unique_ptr<models::StationaryModel> membranes(MembraneScene scene, method::SpaceFactory make_space, method::MethodParams method,
                                                    algebra::LinearParams linear, std::array<scene::FieldPtr, 3> initial,
                                                    method::MeshCheck check_mesh) {
   return std::make_unique<Membranes>(std::move(scene), std::move(make_space), method, linear, std::move(initial), std::move(check_mesh));

@@ -13,7 +13,7 @@
 #include "thixis/core/timer.hpp"
 #include "thixis/membranes/parabolic_membranes.hpp"
 #include "thixis/mesh/adapt.hpp"
-#include "thixis/scene/heights.hpp"
+#include "thixis/scene/shifted.hpp"
 
 namespace thixis::membranes {
 namespace {
@@ -40,11 +40,11 @@ struct Pair {
 
 class ParabolicEvolution final : public models::Evolution {
  public:
-  ParabolicEvolution(const scene::MembraneScene& scene, const method::SpaceFactory& make_space, const method::MethodParams& method,
+  ParabolicEvolution(const MembraneScene& scene, const method::SpaceFactory& make_space, const method::MethodParams& method,
                      const algebra::LinearParams& linear, mesh::Hierarchy hierarchy, std::optional<double> friedrichs,
                      std::vector<models::Probe> probes)
       : origin_(heights_of(scene, hierarchy.levels.front(), 0).origin()),
-        scene_(scene::counted_from(origin_, scene)),
+        scene_(counted_from(origin_, scene)),
         make_space_(make_space),
         method_(method),
         linear_(linear),
@@ -366,8 +366,8 @@ class ParabolicEvolution final : public models::Evolution {
     return step_.length() * sum / 2;
   }
 
-  double origin_;                     ///< of heights: where the membranes are held at the beginning
-  const scene::MembraneScene scene_;  ///< with heights counted from there
+  double origin_;              ///< of heights: where the membranes are held at the beginning
+  const MembraneScene scene_;  ///< with heights counted from there
   const method::SpaceFactory& make_space_;
   method::MethodParams method_;
   algebra::LinearParams linear_;
@@ -394,7 +394,7 @@ class ParabolicEvolution final : public models::Evolution {
 
 class ParabolicMembranes final : public models::UnsteadyModel {
  public:
-  ParabolicMembranes(scene::MembraneScene scene, method::SpaceFactory make_space, method::MethodParams method, algebra::LinearParams linear,
+  ParabolicMembranes(MembraneScene scene, method::SpaceFactory make_space, method::MethodParams method, algebra::LinearParams linear,
                      method::MeshCheck check_mesh, std::optional<double> friedrichs)
       : scene_(std::move(scene)),
         make_space_(std::move(make_space)),
@@ -435,7 +435,7 @@ class ParabolicMembranes final : public models::UnsteadyModel {
   }
 
  private:
-  scene::MembraneScene scene_;
+  MembraneScene scene_;
   method::SpaceFactory make_space_;
   method::MeshCheck check_mesh_;
   method::MethodParams method_;
@@ -445,7 +445,7 @@ class ParabolicMembranes final : public models::UnsteadyModel {
 
 }  // namespace
 
-std::unique_ptr<models::UnsteadyModel> parabolic_membranes(scene::MembraneScene scene, method::SpaceFactory make_space,
+std::unique_ptr<models::UnsteadyModel> parabolic_membranes(MembraneScene scene, method::SpaceFactory make_space,
                                                            method::MethodParams method, algebra::LinearParams linear,
                                                            method::MeshCheck check_mesh, std::optional<double> friedrichs) {
   return std::make_unique<ParabolicMembranes>(std::move(scene), std::move(make_space), method, linear, std::move(check_mesh), friedrichs);

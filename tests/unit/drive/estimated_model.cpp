@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "registry.hpp"
 #include "thixis/algebra/tpetra.hpp"
 #include "thixis/fem/lagrange_space.hpp"
 #include "thixis/membranes/membranes.hpp"
@@ -18,6 +19,7 @@ class Estimated final : public models::Discretization {
 
   complementarity::Problem& problem() override { return inner_->problem(); }
   models::Sizes sizes() const override { return inner_->sizes(); }
+  int sweeps() const override { return inner_->sweeps(); }
   Teuchos::RCP<algebra::Vector> cold_start() const override {
     model_.nested.push_back(false);
     return inner_->cold_start();
@@ -99,7 +101,7 @@ class Estimated final : public models::Discretization {
 }  // namespace
 
 EstimatedModel::EstimatedModel(const RunParams& params)
-    : inner_(membranes::membranes(scene::membrane_scene(params.scene), fem::make_lagrange_space, params.method, params.linear, {})) {}
+    : inner_(membranes::membranes(membranes::membrane_scene(params.scene), fem::make_lagrange_space, params.method, params.linear, {})) {}
 
 std::unique_ptr<models::Discretization> EstimatedModel::discretize(const mesh::Hierarchy& hierarchy, int level) const {
   entered.push_back(level);
@@ -108,7 +110,7 @@ std::unique_ptr<models::Discretization> EstimatedModel::discretize(const mesh::H
 }
 
 RunParams smooth_contact() {
-  RunParams params;
+  RunParams params = catalogue().defaults();
   params.scene.case_name = "smooth contact";
   params.mesh.cells_per_side = 4;
   params.mesh.refinements = 1;

@@ -5,9 +5,11 @@
 
 #include "evolution_checkpoint.hpp"
 #include "falling.hpp"
+#include "registry.hpp"
 #include "step_control.hpp"
 #include "thixis/algebra/tpetra.hpp"
 #include "thixis/drive/evolve.hpp"
+#include "thixis/membranes/params.hpp"
 
 namespace thixis::drive {
 namespace {
@@ -15,8 +17,8 @@ namespace {
 using algebra::Vector;
 
 RunParams half_a_unit(double step) {
-  RunParams params;
-  params.scene.data.emplace();
+  RunParams params = catalogue().defaults();
+  membranes::of(params.scene).data.emplace();
   params.output.directory = "results";
   params.time = TimeParams{};
   params.time->step = step;

@@ -9,8 +9,6 @@
 namespace thixis::verification {
 namespace {
 
-using method::MethodName;
-
 /// h = tau = 1/n, P1, the rule of degree 5.
 struct Row {
   int n;

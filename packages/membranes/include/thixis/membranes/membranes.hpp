@@ -3,9 +3,9 @@
 
 #include "thixis/algebra/solver.hpp"
 #include "thixis/complementarity/newton.hpp"
+#include "thixis/membranes/scene.hpp"
 #include "thixis/method/space.hpp"
 #include "thixis/models/model.hpp"
-#include "thixis/scene/membranes.hpp"
 
 namespace thixis::membranes {
 
@@ -16,7 +16,7 @@ namespace thixis::membranes {
 ///
 /// `make_space`, `check_mesh`: the method. `initial`: expressions of the deck for the cold start, u_1 (or u), u_2, lambda (null: those of
 /// the scene, else zero).
-std::unique_ptr<models::StationaryModel> membranes(scene::MembraneScene scene, method::SpaceFactory make_space, method::MethodParams method,
+std::unique_ptr<models::StationaryModel> membranes(MembraneScene scene, method::SpaceFactory make_space, method::MethodParams method,
                                                    algebra::LinearParams linear, std::array<scene::FieldPtr, 3> initial,
                                                    method::MeshCheck check_mesh = {});
 

@@ -3,9 +3,9 @@
 #include <optional>
 
 #include "thixis/algebra/solver.hpp"
+#include "thixis/membranes/scene.hpp"
 #include "thixis/method/space.hpp"
 #include "thixis/models/evolution.hpp"
-#include "thixis/scene/membranes.hpp"
 
 namespace thixis::membranes {
 
@@ -15,7 +15,7 @@ namespace thixis::membranes {
 ///     u1 - u2 >= 0,  lambda >= 0,  (u1 - u2) lambda = 0,      u1, u2 given at time 0.
 ///
 /// `make_space`, `check_mesh`: the method. `friedrichs`: of bound::StepBound.
-std::unique_ptr<models::UnsteadyModel> parabolic_membranes(scene::MembraneScene scene, method::SpaceFactory make_space,
+std::unique_ptr<models::UnsteadyModel> parabolic_membranes(MembraneScene scene, method::SpaceFactory make_space,
                                                            method::MethodParams method, algebra::LinearParams linear,
                                                            method::MeshCheck check_mesh = {}, std::optional<double> friedrichs = {});
 

@@ -11,8 +11,10 @@
 #include "thixis/complementarity/problem.hpp"
 #include "thixis/mesh/build.hpp"
 #include "thixis/models/model.hpp"
+#include "thixis/models/params.hpp"
 #include "thixis/output/checkpoint.hpp"
 #include "thixis/output/fields.hpp"
+#include "thixis/output/summary.hpp"
 
 namespace thixis::models {
 
@@ -24,7 +26,7 @@ struct TimeStep {
 
 /// What is conserved: by how much the steps so far have missed it, relative (docs/methods/two_phase.md).
 struct Balance {
-  std::string name;       ///< of the component: water, hydrogen
+  std::string name;       ///< of the component
   double of_step = 0;     ///< defect of the last step
   double worst_step = 0;  ///< the largest of all steps
   double total = 0;       ///< of the sum over all steps
@@ -42,6 +44,13 @@ struct Objection {
   std::string why;         ///< a sentence that says what to try; empty: it may
   bool too_loose = false;  ///< X is near a solution: the solver may come nearer with smaller tolerances
   explicit operator bool() const { return !why.empty(); }
+};
+
+/// A number that a run ends with, and the bounds that the deck expects it within. In words: "front 3 is not between 0 and 1".
+struct Expectation {
+  std::string what;
+  std::optional<double> value;  ///< none: it is not known
+  std::optional<double> least, most;
 };
 
 /// What a scene must bring to the next step beside X.
@@ -114,10 +123,13 @@ class Evolution {
   // Of X at the end of a step, or of X^0.
   virtual double energy_norm(const algebra::Vector&) const { return 0; }
   virtual complementarity::KktData kkt_data(const algebra::Vector& X) const = 0;
-  virtual std::optional<double> front(const algebra::Vector&) const { return {}; }
   virtual std::optional<Contact> contact(const algebra::Vector&) const { return {}; }
   /// The fields of Model::point_fields at points, [probe][field], on all ranks. Collective.
   virtual std::vector<double> values_at(const std::vector<Probe>&, const algebra::Vector&) const { return {}; }
+  /// What the deck expects of this model alone (ExpectParams::own), with what was found.
+  virtual std::vector<Expectation> expectations(const ExpectParams&, const algebra::Vector&) const { return {}; }
+  /// What the summary says of this model alone.
+  virtual std::vector<output::SummaryEntry> summary(const algebra::Vector&) const { return {}; }
   /// Columns of series.csv behind the time, and their values.
   virtual std::vector<std::string> series_names() const { return {}; }
   virtual std::vector<double> series(const algebra::Vector&) const { return {}; }

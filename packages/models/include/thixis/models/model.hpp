@@ -34,7 +34,7 @@ struct PublishedEstimate {
 };
 
 /// What contact does on the whole, over the points that are not held: sum_l (psi_l, 1) over those in contact, s_l lambda_l > K_l, and
-/// sum_l <lambda_h, psi_l>, the integral of the contact force. Where membranes are held in contact the strip of the first cells, h/2 for
+/// sum_l <lambda_h, psi_l>, the integral of the contact force. Where fields are held in contact the strip of the first cells, h/2 for
 /// degree 1, counts as held.
 struct Contact {
   double area = 0, force = 0;
@@ -43,8 +43,8 @@ struct Contact {
 /// What the rounding of heights may hide, at worst: forces of this size relative to those that act.
 struct Rounding {
   double of_contact = 0;  ///< … to what drives the gap
-  double of_forces = 0;   ///< … to the forces on a membrane, boundary data not among them; 0 where there are none
-  double height = 0;      ///< the largest one, counted from where the membranes are held
+  double of_forces = 0;   ///< … to the forces on a field, boundary data not among them; 0 where there are none
+  double height = 0;      ///< the largest one, counted from where the fields are held
 };
 
 /// A point that a run looks at.
@@ -67,6 +67,8 @@ class Discretization {
 
   virtual complementarity::Problem& problem() = 0;
   virtual Sizes sizes() const = 0;
+  /// Sweeps of nonlinear smoothing that pay after each Newton step of a nested run.
+  virtual int sweeps() const { return 0; }
 
   /// X0 of a cold start: the deck's or the case's initial values, otherwise zero or the height closest to zero that is held.
   virtual Teuchos::RCP<algebra::Vector> cold_start() const = 0;
