@@ -52,7 +52,7 @@ class Run {
     out_.X = evolution_.initial();
     if (out_.not_wanted || !observer_.step) return;
     StepRecord record;
-    record.energy_error = evolution_.energy_error();
+    record.energy_error = evolution_.error_so_far();
     observer_.step(record, evolution_, *out_.X, {});
   }
 
@@ -184,7 +184,7 @@ class Run {
   complementarity::Estimate look(const Vector& iterate) {
     const auto estimate = evolution_.estimate(iterate);
     const core::Region region("verification");
-    if (params_.output.history) error_at_look_ = evolution_.step_energy_error(iterate);
+    if (params_.output.history) error_at_look_ = evolution_.energy_error(iterate);
     return estimate;
   }
 
@@ -281,7 +281,7 @@ class Run {
     record.linear = out_.last.linear_iterations;
     record.active = out_.last.active;
     record.residual = out_.last.residuals.back();
-    record.energy_error = evolution_.energy_error();
+    record.energy_error = evolution_.error_so_far();
     if (params_.estimated()) record.of_step = eta_;
     record.so_far = evolution_.estimate_so_far();
     record.seconds = seconds;

@@ -37,8 +37,11 @@ struct Clauses {
   }
 };
 
-std::optional<double> area(const Found& found) { return found.contact ? std::optional(found.contact->area) : std::nullopt; }
-std::optional<double> force(const Found& found) { return found.contact ? std::optional(found.contact->force) : std::nullopt; }
+/// A part of what may not be known.
+template <class T, class Part>
+auto part(const std::optional<T>& whole, Part f) -> std::optional<std::decay_t<decltype(f(*whole))>> {
+  return whole ? std::optional(f(*whole)) : std::nullopt;
+}
 
 }  // namespace
 
@@ -54,27 +57,6 @@ std::map<std::string, double> values_by_name(const ExpectParams& expect, const s
   return by_name;
 }
 
-Found found(const Outcome& outcome) {
-  Found found;
-  found.solved = !outcome.not_wanted;
-  found.energy_error = outcome.energy_error;
-  if (outcome.kkt) found.kkt = outcome.kkt->worst();
-  if (outcome.estimate) {
-    found.bound = outcome.estimate->total;
-    found.promise = outcome.estimate->promise;
-  }
-  found.effectivity = outcome.effectivity();
-  if (found.solved) found.energy_norm = outcome.energy_norm;
-  found.contact = outcome.contact;
-  found.at = outcome.at_points;
-  found.newton_iterations = outcome.at.newton_iterations;
-  found.newton_finest = outcome.at.newton_on_level;
-  found.linear_iterations = outcome.at.linear_iterations;
-  found.unknowns = outcome.discretization->sizes().unknowns_all;
-  found.cells = outcome.mesh->global_cells;
-  return found;
-}
-
 std::vector<std::string> missed(const ExpectParams& expect, const Found& found) {
   Clauses clauses;
   if (found.solved) {
@@ -83,23 +65,25 @@ std::vector<std::string> missed(const ExpectParams& expect, const Found& found) 
     clauses.at_most("number of Newton steps", found.newton_iterations, expect.newton_iterations_at_most);
     clauses.at_most("number of Newton steps on the finest level", found.newton_finest, expect.newton_finest_at_most);
     clauses.at_most("number of Krylov iterations", found.linear_iterations, expect.linear_iterations_at_most);
-    clauses.at_most("violation of the contact conditions", found.kkt, expect.kkt_at_most);
-    clauses.at_most("bound", found.bound, expect.bound_at_most);
-    clauses.promised(found.promise, expect.promise);
-    clauses.between("effectivity", found.effectivity, expect.effectivity_between);
-    clauses.at_most("number of time steps", found.steps, expect.steps_at_most);
-    clauses.at_most("number of steps that were begun again", found.retries, expect.retries_at_most);
+    clauses.at_most("violation of the contact conditions", part(found.kkt, [](const auto& kkt) { return kkt.worst(); }),
+                    expect.kkt_at_most);
+    clauses.at_most("bound", part(found.estimate, [](const auto& eta) { return eta.total; }), expect.bound_at_most);
+    clauses.promised(part(found.estimate, [](const auto& eta) { return eta.promise; }), expect.promise);
+    clauses.between("effectivity", found.effectivity(), expect.effectivity_between);
+    clauses.at_most("number of time steps", part(found.in_time, [](const auto& time) { return time.steps; }), expect.steps_at_most);
+    clauses.at_most("number of steps that were begun again", part(found.in_time, [](const auto& time) { return time.retries; }),
+                    expect.retries_at_most);
     for (const models::Expectation& expected : found.of_model) clauses.within(expected);
     clauses.between("energy norm", found.energy_norm, expect.energy_norm_between);
-    clauses.between("contact area", area(found), expect.contact_area_between);
-    clauses.between("contact force", force(found), expect.force_between);
+    clauses.between("contact area", part(found.contact, [](const auto& contact) { return contact.area; }), expect.contact_area_between);
+    clauses.between("contact force", part(found.contact, [](const auto& contact) { return contact.force; }), expect.force_between);
     for (const auto& [name, at] : expect.at) {
       const auto value = found.at.find(name);
       clauses.between(fmt::format("{} at '{}'", at.field, name), value == found.at.end() ? std::nullopt : std::optional(value->second),
                       at.between);
     }
   }
-  clauses.equal("unknowns:", found.unknowns, expect.unknowns);
+  clauses.equal("unknowns:", found.sizes.unknowns_all, expect.unknowns);
   clauses.equal("cells:", found.cells, expect.cells);
   return clauses.missed;
 }

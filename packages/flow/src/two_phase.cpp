@@ -232,8 +232,8 @@ class TwoPhaseEvolution final : public models::Evolution {
   std::vector<output::FieldData> fields(const Vector& X, const complementarity::ActiveSet& active,
                                         const std::vector<std::string>& names) const override;
 
-  models::EvolutionState save(const Vector& X) const override {
-    models::EvolutionState state{{}, balance_.save()};
+  models::State save(const Vector& X) const override {
+    models::State state{{}, balance_.save()};
     bound_so_far_.save(state.attributes);
     state.attributes["last_length"] = last_length_;
     add_blocks("", X, state.blocks);

@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "exact_gradient.hpp"
 #include "heights.hpp"
 #include "membrane_checks.hpp"
-#include "membrane_kkt.hpp"
-#include "membrane_level.hpp"
 #include "membrane_pieces.hpp"
+#include "membranes_on_mesh.hpp"
 #include "thixis/bound/guaranteed_bound.hpp"
 #include "thixis/bound/published_bound.hpp"
 #include "thixis/core/timer.hpp"
@@ -20,7 +18,7 @@ namespace {
 using algebra::Vector;
 using method::Coefficients;
 
-class MembraneDiscretization final : public models::Discretization {
+class MembraneDiscretization final : public MembranesOnMesh<models::Discretization> {
  public:
   MembraneDiscretization(const MembraneScene& scene, double origin, const method::SpaceFactory& make_space,
                          const method::MethodParams& method, const algebra::LinearParams& linear,
@@ -30,13 +28,7 @@ class MembraneDiscretization final : public models::Discretization {
     on_mesh_ = std::make_unique<MembraneLevel>(scene, origin, make_space, method, linear, hierarchy.levels[level]);
   }
 
-  complementarity::Problem& problem() override { return on_mesh_->problem(); }
-
   int sweeps() const override { return space().symmetric() ? 10 : 0; }
-  models::Sizes sizes() const override {
-    const MembraneProblem& problem = on_mesh_->problem();
-    return {problem.unknowns(), problem.rows(), problem.nonzeros()};
-  }
 
   Teuchos::RCP<Vector> cold_start() const override {
     const auto X = on_mesh_->zero();
@@ -56,24 +48,12 @@ class MembraneDiscretization final : public models::Discretization {
     return X;
   }
 
-  std::vector<output::CheckpointBlock> save(const Vector& X) const override { return on_mesh_->save(X); }
-  Teuchos::RCP<Vector> restore(const output::StoredCheckpoint& stored) const override { return on_mesh_->restore(stored); }
+  models::State save(const Vector& X) const override { return {on_mesh_->save(X), {}}; }
+  Teuchos::RCP<Vector> restore(const output::StoredCheckpoint& stored) override { return on_mesh_->restore(stored); }
 
   std::optional<double> energy_error(const Vector& X) const override {
     if (!scene_.exact) return std::nullopt;
-    const Fields x = on_mesh_->fields(X);
-    double sum = 0;
-    for (int alpha = 0; alpha < scene_.count; ++alpha)
-      sum += space().energy_error(*scene_.tension[alpha], on_mesh_->membrane(x, alpha),
-                                  exact_gradient(*scene_.exact, alpha, space().mesh()), 0);
-    return std::sqrt(sum);
-  }
-
-  double energy_norm(const Vector& X) const override {
-    const Fields x = on_mesh_->fields(X);
-    double sum = 0;
-    for (int alpha = 0; alpha < scene_.count; ++alpha) sum += space().energy(*scene_.tension[alpha], on_mesh_->membrane(x, alpha));
-    return std::sqrt(sum);
+    return std::sqrt(squared_energy_error(*on_mesh_, at(X), 0));
   }
 
   complementarity::Estimate estimate(const Vector& X) override {
@@ -87,17 +67,7 @@ class MembraneDiscretization final : public models::Discretization {
 
   std::vector<std::string> doubts() const override { return bound_ ? bound_->doubts() : std::vector<std::string>(); }
 
-  models::CellEstimates cell_estimates() const override {
-    models::CellEstimates of_cells;
-    if (!bound_) return of_cells;
-    const auto copy = [](const mesh::View<double*>& values) {
-      const auto host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), values);
-      return std::vector<double>(host.data(), host.data() + host.extent(0));
-    };
-    const auto& parts = bound_->cells();
-    return {copy(parts.discretization), copy(parts.linearization), copy(parts.algebraic)};
-  }
-
+  models::CellEstimates cell_estimates() const override { return bound_ ? cells_of(bound_->cells()) : models::CellEstimates(); }
   std::size_t bytes_of_estimate() const override { return bound_ ? bound_->bytes() : 0; }
 
   std::optional<models::PublishedEstimate> published_estimate(const Vector& X, std::optional<double> friedrichs) override {
@@ -119,32 +89,14 @@ class MembraneDiscretization final : public models::Discretization {
                                       {"nonconformity_3", bound.nonconformity[2]}}};
   }
 
-  complementarity::KktData kkt_data(const Vector& X) const override {
-    MembraneSolution solution{scene_, space(), on_mesh_->problem(), on_mesh_->body(), on_mesh_->fields(X)};
-    for (int alpha = 0; alpha < scene_.count; ++alpha) solution.u[alpha] = on_mesh_->membrane(solution.x, alpha);
-    return membranes::kkt_data(solution);
-  }
-
+  complementarity::KktData kkt_data(const Vector& X) const override { return membranes::kkt_data(solution(X)); }
   models::Rounding rounding(const Vector& X) const override { return on_mesh_->rounding(X); }
-  models::Contact contact(const Vector& X) const override { return on_mesh_->contact(X); }
-  std::vector<double> values_at(const std::vector<models::Probe>& probes, const Vector& X) const override {
-    return on_mesh_->values_at(probes, X);
-  }
-  output::Grid grid() const override { return space().display(); }
-
-  std::vector<output::FieldData> fields(const Vector& X, const complementarity::ActiveSet& active,
-                                        const std::vector<std::string>& names) const override {
-    return on_mesh_->shown(X, active, names);
-  }
 
  private:
-  const method::Space& space() const { return on_mesh_->space(); }
-
   const MembraneScene& scene_;
   const std::array<scene::FieldPtr, 3>& initial_;
   const mesh::Hierarchy& hierarchy_;
   int level_;
-  std::unique_ptr<MembraneLevel> on_mesh_;
   std::unique_ptr<bound::GuaranteedBound> bound_;  ///< made when an estimate is first asked for
 };
 

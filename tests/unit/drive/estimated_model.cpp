@@ -18,6 +18,8 @@ class Estimated final : public models::Discretization {
       : model_(model), inner_(std::move(inner)), mesh_(mesh), effectivity_(effectivity) {}
 
   complementarity::Problem& problem() override { return inner_->problem(); }
+  const core::Comm& comm() const override { return mesh_.comm; }
+  GlobalIndex cells() const override { return mesh_.global_cells; }
   models::Sizes sizes() const override { return inner_->sizes(); }
   int sweeps() const override { return inner_->sweeps(); }
   Teuchos::RCP<algebra::Vector> cold_start() const override {
@@ -28,8 +30,8 @@ class Estimated final : public models::Discretization {
     model_.nested.push_back(true);
     return inner_->nested_start(*dynamic_cast<const Estimated&>(coarse).inner_, X);
   }
-  std::vector<output::CheckpointBlock> save(const algebra::Vector& X) const override { return inner_->save(X); }
-  Teuchos::RCP<algebra::Vector> restore(const output::StoredCheckpoint& stored) const override { return inner_->restore(stored); }
+  models::State save(const algebra::Vector& X) const override { return inner_->save(X); }
+  Teuchos::RCP<algebra::Vector> restore(const output::StoredCheckpoint& stored) override { return inner_->restore(stored); }
   std::optional<double> energy_error(const algebra::Vector& X) const override { return inner_->energy_error(X); }
   double energy_norm(const algebra::Vector& X) const override { return inner_->energy_norm(X); }
 
@@ -59,7 +61,7 @@ class Estimated final : public models::Discretization {
   }
   complementarity::KktData kkt_data(const algebra::Vector& X) const override { return inner_->kkt_data(X); }
   models::Rounding rounding(const algebra::Vector& X) const override { return inner_->rounding(X); }
-  models::Contact contact(const algebra::Vector& X) const override { return inner_->contact(X); }
+  std::optional<models::Contact> contact(const algebra::Vector& X) const override { return inner_->contact(X); }
   std::vector<double> values_at(const std::vector<models::Probe>& probes, const algebra::Vector& X) const override {
     return inner_->values_at(probes, X);
   }

@@ -74,7 +74,7 @@ TEST(Agreement, on_any_number_of_ranks) {
     for (std::size_t n = 0; n < alone.series.size(); ++n)
       for (std::size_t k = 0; k < alone.series[n].size(); ++k)
         EXPECT_NEAR(together.series[n][k], alone.series[n][k], 1e-9 * (1 + std::abs(alone.series[n][k])));
-    EXPECT_NEAR(together.evolution->energy_error().value(), alone.evolution->energy_error().value(), 1e-9);
+    EXPECT_NEAR(together.evolution->error_so_far().value(), alone.evolution->error_so_far().value(), 1e-9);
   }
 }
 
@@ -193,7 +193,7 @@ TEST(Checkpoint, brings_everything_to_the_next_step) {
     if (evolution == again.get()) run.X = Teuchos::rcp(new Vector(Y, Teuchos::Copy));
     else EXPECT_EQ(distance(Y, *run.X), 0);
   }
-  EXPECT_EQ(again->energy_error(), run.evolution->energy_error());
+  EXPECT_EQ(again->error_so_far(), run.evolution->error_so_far());
 }
 
 /// Mesh, prediction and bound of a run whose mesh was refined twice, bit for bit.
@@ -238,7 +238,7 @@ TEST(Checkpoint, brings_the_refined_mesh) {
       step(*again, n, Y);
       EXPECT_EQ(distance(*X, *Y), 0);
       EXPECT_EQ(evolution->estimate_so_far()->total, again->estimate_so_far()->total);
-      EXPECT_EQ(evolution->energy_error(), again->energy_error());
+      EXPECT_EQ(evolution->error_so_far(), again->error_so_far());
     }
   }
 }

@@ -60,7 +60,7 @@ Bounded bounded(drive::RunParams params, int steps, double end, Ending ending, c
     space2 += errors.space * errors.space;
     evolution->accept(*X);
     result.so_far = evolution->estimate_so_far().value();
-    result.error = evolution->energy_error().value();
+    result.error = evolution->error_so_far().value();
     result.split = result.split && holds(result.so_far);
     result.worst = std::min(result.worst, result.so_far.total / result.error);
   }
@@ -149,7 +149,7 @@ TEST(GuaranteeOnRanks, stays_above_the_error_when_the_mesh_is_refined) {
         evolution->estimate(*X);
         evolution->accept(*X);
         const auto so_far = evolution->estimate_so_far().value();
-        EXPECT_GE(so_far.total, evolution->energy_error().value()) << name_of(method, degree);
+        EXPECT_GE(so_far.total, evolution->error_so_far().value()) << name_of(method, degree);
         EXPECT_TRUE(holds(so_far)) << name_of(method, degree);
       }
     }

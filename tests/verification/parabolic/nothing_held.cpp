@@ -52,7 +52,7 @@ TEST(NothingHeld, sinks_as_it_should) {
       for (const auto& params : all_ways(sinking(method, degree, height))) {
         const March run = march(params, 4, 0.4);
         EXPECT_TRUE(run.solved) << name_of(params) << " at " << height;
-        EXPECT_LE(run.evolution->energy_error().value(), 1e-7) << name_of(params);
+        EXPECT_LE(run.evolution->error_so_far().value(), 1e-7) << name_of(params);
         for (const char* of : {"l2_error_u1", "l2_error_u2"}) EXPECT_LE(run.largest(of), 1e-8) << name_of(params);
         EXPECT_NEAR(run.at(3, "contact_force"), 0.5, 1e-7) << name_of(params);
         EXPECT_LE(run.worst_kkt, 1e-7) << name_of(params);
@@ -82,7 +82,7 @@ TEST(NothingHeld, has_a_bound) {
         EXPECT_TRUE(std::isfinite(eta.total));
         EXPECT_LE(eta.total, (1 + 1e-12) * (eta.discretization + eta.linearization + eta.algebraic) + 1e-14);
         evolution->accept(*X);
-        const double error = evolution->energy_error().value();
+        const double error = evolution->error_so_far().value();
         EXPECT_GE(evolution->estimate_so_far()->total, error - 1e-12) << name_of(params) << ", step " << n;
         if (disturbance == 0) {
           EXPECT_LE(evolution->estimate_so_far()->total, 1e-6) << name_of(params) << ", step " << n;

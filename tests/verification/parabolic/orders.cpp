@@ -18,7 +18,7 @@ drive::RunParams reduced(const std::string& name, int n, std::string method, int
 
 double error(const drive::RunParams& params, int steps) {
   const March run = march(params, steps, 1);
-  return run.evolution->energy_error().value();
+  return run.evolution->error_so_far().value();
 }
 
 /// The solution is affine in time and the zone rests: 2 steps are exact, what is left is the error in space.
@@ -52,7 +52,7 @@ void expect_order_in_time(const std::string& method, int n, int fewest) {
   for (const int factor : {1, 2, 4}) {
     const March run = march(reduced("smooth moving contact", n, method, 4), fewest * factor, 1);
     ends.push_back(run.error_at_ends(1.0 / (fewest * factor)));
-    all.push_back(run.evolution->energy_error().value());
+    all.push_back(run.evolution->error_so_far().value());
   }
   std::cout << method << " in time, " << fewest << " … steps:";
   for (int k = 0; k < 3; ++k) std::cout << ' ' << ends[k] << " (" << all[k] << ')';
