@@ -204,8 +204,9 @@ class Run {
 
   /// Of the deck, or what the tolerance of the nonlinear solver allows.
   double kkt_tolerance(const complementarity::KktData& data) {
-    const double residual = params_.stopping.nonlinear_tolerance * evolution_.problem().reference_norm() +
-                            params_.stopping.absolute_tolerance + evolution_.round_off() + evolution_.problem().noise(*out_.X);
+    const complementarity::Problem& problem = evolution_.problem();
+    const double rounding = evolution_.round_off() + problem.noise(*out_.X);
+    const double residual = params_.stopping.nonlinear_residual(problem.reference_norm(), rounding);
     return params_.stopping.kkt_tolerance.value_or(data.allowed(residual));
   }
 

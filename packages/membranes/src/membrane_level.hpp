@@ -14,6 +14,9 @@
 
 namespace thixis::membranes {
 
+/// The name of a displacement: of a field, and in checkpoints.
+inline std::string displacement(int count, int alpha) { return count == 1 ? "u" : alpha == 0 ? "u1" : "u2"; }
+
 /// Membranes on one mesh: the space, the data at one time, the algebraic problem, and what is read of its X.
 class MembraneLevel {
  public:

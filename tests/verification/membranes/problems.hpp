@@ -7,6 +7,7 @@
 #include "methods.hpp"
 #include "thixis/algebra/tpetra.hpp"
 #include "thixis/drive/stationary.hpp"
+#include "thixis/membranes/membranes.hpp"
 
 namespace thixis::verification {
 

@@ -47,6 +47,10 @@ struct StoppingParams {
   std::optional<double> time_scale;     ///< alpha, two-phase flow, in the unit of time of the deck; not given: 2500 years
   std::optional<double>
       friedrichs;  ///< h_Omega C_PF of the bounds in time and of the literature; not given: that of the box around the domain
+  /// The nonlinear residual that ends Newton's method: of the data's norm `reference`, and what rounding leaves.
+  double nonlinear_residual(double reference, double rounding) const {
+    return nonlinear_tolerance * reference + absolute_tolerance + rounding;
+  }
   static const core::Schema<StoppingParams>& schema();
 };
 
