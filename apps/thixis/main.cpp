@@ -33,7 +33,7 @@ struct Arguments {
 template <class F>
 core::ExitCode with_deck(core::Deck deck, const Arguments& arguments, bool restart, F f) {
   for (const auto& assignment : arguments.overrides) deck.set(assignment);
-  auto params = deck.parse(drive::RunParams::schema());
+  auto params = deck.parse(catalogue().schema());
   if (!arguments.output.empty()) params.output.directory = arguments.output;
   if (params.output.directory.empty()) params.output.directory = "results/" + deck.stem();
   try {
@@ -47,9 +47,9 @@ core::ExitCode with_deck(core::Deck deck, const Arguments& arguments, bool resta
         mistakes += (mistakes.empty() ? "" : "\n") + std::string(mistake.what());
       }
     };
-    collect([&] { core::check_used(deck, drive::RunParams::uses(), params, restart); });
+    collect([&] { core::check_used(deck, catalogue().uses(), params, restart); });
     collect([&] { drive::check_served(params); });
-    collect([&] { model = make_model(params); });
+    collect([&] { model = catalogue().make(params); });
     if (model) collect([&] { drive::check_wanted(params, *model); });
     if (!mistakes.empty()) throw core::InputError(mistakes);
     return f(deck, params, *model);
@@ -83,19 +83,21 @@ core::ExitCode check(const Arguments& arguments, const core::Comm& comm) {
 }
 
 core::ExitCode describe(const Arguments& arguments, const core::Comm&) {
-  if (const auto params = drive::starting(arguments.block)) {
+  const auto& schema = catalogue().schema();
+  if (const auto params = catalogue().starting(arguments.block)) {
     if (arguments.format != core::Format::xml)
       throw core::InputError(
           fmt::format("thixis describe: '{}' is a scene, which is described as a deck; write --format xml.", arguments.block));
-    core::log::info("{}", core::skeleton(drive::RunParams::schema(), *params, drive::RunParams::uses()));
+    core::log::info("{}", core::skeleton(schema, *params, catalogue().uses()));
     return core::ExitCode::done;
   }
-  core::log::info("{}", core::describe(drive::RunParams::schema(), arguments.block, arguments.format, drive::RunParams::uses()));
+  core::log::info("{}", core::describe(schema, arguments.block, arguments.format, catalogue().uses()));
   return core::ExitCode::done;
 }
 
 core::ExitCode cases(const Arguments&, const core::Comm&) {
-  for (const auto& known : scene::cases()) core::log::info("{:<21}{:<26}{}", scene::to_text(known.model), known.name, known.sentence);
+  for (const models::Entry& model : catalogue().models())
+    for (const models::Case& known : model.cases) core::log::info("{:<21}{:<26}{}", model.name, known.name, known.sentence);
   return core::ExitCode::done;
 }
 

@@ -52,9 +52,7 @@ class System {
   const StoppingParams& stopping() const { return stopping_; }
 
   /// What the residual of an iterate may be.
-  double nonlinear_bound(const State& state) const {
-    return stopping_.nonlinear_tolerance * reference_ + stopping_.absolute_tolerance + state.round_off;
-  }
+  double nonlinear_bound(const State& state) const { return stopping_.nonlinear_residual(reference_, state.round_off); }
   double reference() const { return reference_; }               ///< |(F, 0)|, or the first residual where that is 0
   int linear_iterations() const { return linear_iterations_; }  ///< of all systems
   bool solved() const { return solved_; }                       ///< the last system, to its tolerance

@@ -86,6 +86,22 @@ void Description::add(Block block) {
   last_is_block_ = true;
 }
 
+void Description::adopt(const Description& of_part, const std::function<void*(void*)>& open,
+                        const std::function<const void*(const void*)>& look) {
+  for (Parameter p : of_part.parameters_) {
+    p.set = [open, set = p.set](void* object, const Value& value) { set(open(object), value); };
+    p.get = [look, get = p.get](const void* object) { return get(look(object)); };
+    add(std::move(p));
+  }
+  for (Block b : of_part.blocks_) {
+    b.open = [open, inner = b.open](void* object, const std::string& member) { return inner(open(object), member); };
+    b.members = [look, inner = b.members](const void* object) { return inner(look(object)); };
+    add(std::move(b));
+  }
+  for (const auto& check : of_part.checks_)
+    checks_.push_back([look, check](const void* object, Problems& problems) { check(look(object), problems); });
+}
+
 void Description::require_last() {
   if (last_is_block_) blocks_.back().required = true;
   else parameters_.back().required = true;

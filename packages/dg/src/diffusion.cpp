@@ -6,6 +6,7 @@
 #include "layout.hpp"
 #include "thixis/algebra/tpetra.hpp"
 #include "thixis/core/assert.hpp"
+#include "thixis/dg/params.hpp"
 #include "thixis/dg/space.hpp"
 #include "thixis/method/gradient_form.hpp"
 #include "thixis/reference/modal.hpp"
@@ -42,7 +43,8 @@ class Diffusion final : public method::Form {
  public:
   Diffusion(const method::Space& space, scene::FieldPtr tension) : Form(space), tension_(std::move(tension)) {
     const auto& params = space.options().params;
-    penalty_ = {params.variant == method::Variant::sipg ? 1.0 : -1.0, params.penalty * params.degree * params.degree};
+    const Params& own = params.own.get<Params>();
+    penalty_ = {own.variant == Variant::sipg ? 1.0 : -1.0, own.penalty * params.degree * params.degree};
     const auto faces = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), space.coefficients().coupled_faces);
     const auto count = [&](LocalIndex from, FaceRole wanted) {
       LocalIndex k = from;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "thixis/dg/params.hpp"
 #include "thixis/mesh/host.hpp"
 
 namespace thixis::dg {
@@ -22,7 +23,7 @@ std::vector<LocalIndex> faces_of_owned_cells(const mesh::Mesh& mesh, const mesh:
 
 }  // namespace
 
-bool strong(const method::SpaceOptions& options) { return options.params.boundary == method::BoundaryTreatment::strong; }
+bool strong(const method::SpaceOptions& options) { return options.params.own.get<Params>().boundary == BoundaryTreatment::strong; }
 
 FaceRole role(LocalIndex tag, const method::SpaceOptions& options) {
   if (tag < 0) return FaceRole::form;

@@ -4,6 +4,7 @@
 
 #include "layout.hpp"
 #include "thixis/core/error.hpp"
+#include "thixis/dg/params.hpp"
 #include "thixis/mesh/geometry.hpp"
 
 namespace thixis::dg {
@@ -30,15 +31,14 @@ double sufficient_penalty(const mesh::Mesh& mesh, const method::SpaceOptions& op
 }
 
 void check_mesh(const mesh::Mesh& mesh, const method::SpaceOptions& options) {
-  if (!options.params.symmetric()) return;
+  const Params& own = options.params.own.get<Params>();
+  if (own.variant == Variant::nipg) return;
   const double needed = sufficient_penalty(mesh, options);
-  if (options.params.penalty > needed) return;
+  if (own.penalty > needed) return;
   throw core::InputError(fmt::format(
       "method/penalty: {:g} is too small for sipg on this mesh, whose thinnest cell asks for more than {:.3g}; write at least {:.3g}, "
       "or method/variant = nipg, which takes any penalty.",
-      options.params.penalty, needed, 1.1 * needed));
+      own.penalty, needed, 1.1 * needed));
 }
-
-method::Method interior_penalty() { return {"dg", make_space, diffusion, check_mesh}; }
 
 }  // namespace thixis::dg

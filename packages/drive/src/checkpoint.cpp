@@ -25,9 +25,8 @@ constexpr GlobalIndex most_rows = 1ll << 50;
 /// The block with the cells whose refinement made `level`.
 std::string marks_of(int level) { return fmt::format("marked for level {}", level); }
 
-}  // namespace
-
-output::Checkpoint checkpoint_frame(const RunParams& params, const core::Deck& deck) {
+/// The deck as run, from whatever folder.
+output::Checkpoint frame_of(const RunParams& params, const core::Deck& deck) {
   RunParams as_run = params;
   as_run.output.directory = absolute(params.output.directory);
   output::Checkpoint frame;
@@ -36,6 +35,8 @@ output::Checkpoint checkpoint_frame(const RunParams& params, const core::Deck& d
   return frame;
 }
 
+}  // namespace
+
 void remove_file(const std::string& path, const core::Comm& comm) {
   comm.on_root([&] {
     std::error_code absent;
@@ -43,23 +44,33 @@ void remove_file(const std::string& path, const core::Comm& comm) {
   });
 }
 
-CheckpointFile::CheckpointFile(std::string path, const RunParams& params, const core::Deck& deck, const mesh::Hierarchy& hierarchy)
-    : path_(std::move(path)), frame_(checkpoint_frame(params, deck)), hierarchy_(hierarchy) {}
+CheckpointFile::CheckpointFile(std::string path, const RunParams& params, const core::Deck& deck)
+    : path_(std::move(path)), frame_(frame_of(params, deck)) {}
 
-bool CheckpointFile::write(const Position& at, const models::Discretization& discretization, const algebra::Vector& X,
-                           GlobalIndex history_rows, double seconds) const {
+bool CheckpointFile::write(const models::SceneOnMesh& scene, const algebra::Vector& X, int level,
+                           std::map<std::string, double> of_run) const {
   if (!std::isfinite(algebra::norm2(X))) return false;
-  const mesh::Mesh& mesh = hierarchy_.levels[at.level];
+  const core::Comm& comm = scene.comm();
+  models::State state = scene.save(X);
   output::Checkpoint checkpoint = frame_;
-  checkpoint.level = at.level;
-  checkpoint.attributes = {{"cells", static_cast<double>(mesh.global_cells)},   {"newton_on_level", at.newton_on_level},
-                           {"newton_iterations", at.newton_iterations},         {"linear_iterations", at.linear_iterations},
-                           {"history_rows", static_cast<double>(history_rows)}, {"seconds", mesh.comm.max(seconds)}};
-  checkpoint.blocks = discretization.save(X);
-  for (const auto& [level, marked] : marked_)
-    if (level <= at.level) checkpoint.blocks.push_back(output::list_block(marks_of(level), marked, mesh.comm.root()));
-  output::write_checkpoint(path_, checkpoint, mesh.comm);
+  checkpoint.level = level;
+  checkpoint.attributes = std::move(of_run);
+  checkpoint.attributes["cells"] = static_cast<double>(scene.cells());
+  checkpoint.attributes["seconds"] = comm.max(checkpoint.attributes["seconds"]);
+  checkpoint.attributes.merge(state.attributes);
+  checkpoint.blocks = std::move(state.blocks);
+  for (const auto& [made, marked] : marked_)
+    if (made <= level) checkpoint.blocks.push_back(output::list_block(marks_of(made), marked, comm.root()));
+  output::write_checkpoint(path_, checkpoint, comm);
   return true;
+}
+
+std::map<std::string, double> stored_by(const Position& at, GlobalIndex history_rows, double seconds) {
+  return {{"newton_on_level", at.newton_on_level},
+          {"newton_iterations", at.newton_iterations},
+          {"linear_iterations", at.linear_iterations},
+          {"history_rows", static_cast<double>(history_rows)},
+          {"seconds", seconds}};
 }
 
 void replay(const output::StoredCheckpoint& stored, mesh::Hierarchy& hierarchy, CheckpointFile& checkpoint) {
@@ -80,10 +91,10 @@ GlobalIndex history_rows_of(const output::StoredCheckpoint& stored) { return sto
 double seconds_of(const output::StoredCheckpoint& stored) { return stored.number("seconds", 0); }
 
 void say_differences(const output::StoredCheckpoint& stored, const RunParams& params) {
-  RunParams before = core::Deck::from_text(stored.deck(), stored.path()).parse(RunParams::schema());
+  RunParams before = core::Deck::from_text(stored.deck(), stored.path()).parse(params.catalogue->schema());
   before.output.directory = params.output.directory;
   std::vector<std::string> of_problem, others;
-  for (const auto& difference : core::differences(RunParams::schema(), before, params)) {
+  for (const auto& difference : core::differences(params.catalogue->schema(), before, params)) {
     const bool another = difference.path.rfind("scene/", 0) == 0 || difference.path == "mesh/file";
     (another ? of_problem : others).push_back(difference.sentence());
   }
@@ -92,8 +103,8 @@ void say_differences(const output::StoredCheckpoint& stored, const RunParams& pa
   if (!others.empty()) core::log::info("other parameters than those of the checkpoint: {}", core::join(others));
 }
 
-bool same_directory(const output::StoredCheckpoint& stored, const std::string& directory) {
-  const auto before = core::Deck::from_text(stored.deck(), stored.path()).parse(RunParams::schema()).output.directory;
+bool same_directory(const output::StoredCheckpoint& stored, const RunParams& params, const std::string& directory) {
+  const auto before = core::Deck::from_text(stored.deck(), stored.path()).parse(params.catalogue->schema()).output.directory;
   const std::string now = absolute(directory + "/");
   return now == absolute(before + "/") || now == absolute(fs::absolute(stored.path()).parent_path().string() + "/");
 }

@@ -7,30 +7,29 @@
 
 namespace thixis::drive {
 
-/// Deck and folder of a checkpoint: the deck as run, so that a restart may be called from another folder.
-output::Checkpoint checkpoint_frame(const RunParams& params, const core::Deck& deck);
 /// Removes a file that an older run has left. Collective.
 void remove_file(const std::string& path, const core::Comm& comm);
 
-/// The file `checkpoint.h5` of a stationary run.
+/// The file `checkpoint.h5` of a run. It holds the deck as run, so that a restart may be called from another folder.
 class CheckpointFile {
  public:
-  CheckpointFile(std::string path, const RunParams& params, const core::Deck& deck, const mesh::Hierarchy& hierarchy);
+  CheckpointFile(std::string path, const RunParams& params, const core::Deck& deck);
 
   const std::string& path() const { return path_; }
   /// Remembers that the mesh of `level` came from refining these cells of the one before: no deck can say that.
   void refined(int level, const std::vector<GlobalIndex>& marked) { marked_[level] = marked; }
-  /// Writes an iterate; one that is not finite is not worth it: returns false and leaves the file as it is. `history_rows`, `seconds`:
-  /// rows of history.csv and wall clock so far. Collective.
-  bool write(const Position& at, const models::Discretization& discretization, const algebra::Vector& X, GlobalIndex history_rows,
-             double seconds) const;
+  /// Writes X with what the scene and, by name, the run need to go on; an X that is not finite is not worth it: returns false and leaves
+  /// the file as it is. `level`: of the mesh. Collective.
+  bool write(const models::SceneOnMesh& scene, const algebra::Vector& X, int level, std::map<std::string, double> of_run) const;
 
  private:
   std::string path_;
-  output::Checkpoint frame_;  ///< deck and folder
-  const mesh::Hierarchy& hierarchy_;
+  output::Checkpoint frame_;                        ///< deck and folder
   std::map<int, std::vector<GlobalIndex>> marked_;  ///< by the level that came from it
 };
+
+/// What a run at rest stores beside the iterate. `history_rows`, `seconds`: rows of history.csv and wall clock so far.
+std::map<std::string, double> stored_by(const Position& at, GlobalIndex history_rows, double seconds);
 
 /// Appends the meshes that adaptivity had added to those of the deck before the checkpoint was written, and tells `checkpoint` so.
 /// Collective.
@@ -44,7 +43,7 @@ GlobalIndex history_rows_of(const output::StoredCheckpoint& stored);
 double seconds_of(const output::StoredCheckpoint& stored);
 
 /// Whether the run that left the checkpoint wrote into this directory, or the checkpoint lies in it (results that were moved).
-bool same_directory(const output::StoredCheckpoint& stored, const std::string& directory);
+bool same_directory(const output::StoredCheckpoint& stored, const RunParams& params, const std::string& directory);
 
 /// Throws InputError unless the deck's hierarchy has the level of the checkpoint with as many cells, and the start is nested if there are
 /// finer ones.

@@ -4,32 +4,20 @@
 
 #include <limits>
 
-#include "checkpoint.hpp"
-
 namespace thixis::drive {
 
-EvolutionCheckpoint::EvolutionCheckpoint(std::string path, const RunParams& params, const core::Deck& deck)
-    : path_(std::move(path)), frame_(checkpoint_frame(params, deck)) {}
-
-void EvolutionCheckpoint::write(const TimePosition& at, double next_length, const models::Evolution& evolution, const algebra::Vector& X,
-                                const Written& written) const {
-  models::EvolutionState state = evolution.save(X);
-  output::Checkpoint checkpoint = frame_;
-  checkpoint.level = 0;
-  checkpoint.blocks = std::move(state.blocks);
-  checkpoint.attributes = std::move(state.attributes);
-  checkpoint.attributes.insert({{"time_step", at.step},
-                                {"time", at.time},
-                                {"next_length", next_length},
-                                {"newton_iterations", at.newton_iterations},
-                                {"linear_iterations", at.linear_iterations},
-                                {"retries", at.retries},
-                                {"history_rows", static_cast<double>(written.history_rows)},
-                                {"series_rows", static_cast<double>(written.series_rows)},
-                                {"frames", written.frames},
-                                {"last_frame", written.last_frame},
-                                {"seconds", evolution.comm().max(written.seconds)}});
-  output::write_checkpoint(path_, checkpoint, evolution.comm());
+std::map<std::string, double> stored_by(const TimePosition& at, double next_length, const Written& written) {
+  return {{"time_step", at.step},
+          {"time", at.time},
+          {"next_length", next_length},
+          {"newton_iterations", at.newton_iterations},
+          {"linear_iterations", at.linear_iterations},
+          {"retries", at.retries},
+          {"history_rows", static_cast<double>(written.history_rows)},
+          {"series_rows", static_cast<double>(written.series_rows)},
+          {"frames", written.frames},
+          {"last_frame", written.last_frame},
+          {"seconds", written.seconds}};
 }
 
 StoredEvolution stored_evolution(const output::StoredCheckpoint& stored) {

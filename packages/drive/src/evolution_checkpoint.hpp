@@ -1,5 +1,5 @@
 #pragma once
-#include "thixis/core/deck.hpp"
+#include "checkpoint.hpp"
 #include "thixis/drive/evolve.hpp"
 #include "thixis/output/checkpoint.hpp"
 
@@ -13,19 +13,8 @@ struct Written {
   double seconds = 0;
 };
 
-/// The file `checkpoint.h5` of a run in time: the state between two steps.
-class EvolutionCheckpoint {
- public:
-  EvolutionCheckpoint(std::string path, const RunParams& params, const core::Deck& deck);
-  const std::string& path() const { return path_; }
-  /// Collective.
-  void write(const TimePosition& at, double next_length, const models::Evolution& evolution, const algebra::Vector& X,
-             const Written& written) const;
-
- private:
-  std::string path_;
-  output::Checkpoint frame_;  ///< deck and folder
-};
+/// What a run in time stores beside the state of the scene, between two steps.
+std::map<std::string, double> stored_by(const TimePosition& at, double next_length, const Written& written);
 
 /// What a checkpoint knows beside the state of the scene. Throws InputError for the checkpoint of a stationary run.
 struct StoredEvolution {

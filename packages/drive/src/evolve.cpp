@@ -52,7 +52,7 @@ class Run {
     out_.X = evolution_.initial();
     if (out_.not_wanted || !observer_.step) return;
     StepRecord record;
-    record.energy_error = evolution_.energy_error();
+    record.energy_error = evolution_.error_so_far();
     observer_.step(record, evolution_, *out_.X, {});
   }
 
@@ -184,7 +184,7 @@ class Run {
   complementarity::Estimate look(const Vector& iterate) {
     const auto estimate = evolution_.estimate(iterate);
     const core::Region region("verification");
-    if (params_.output.history) error_at_look_ = evolution_.step_energy_error(iterate);
+    if (params_.output.history) error_at_look_ = evolution_.energy_error(iterate);
     return estimate;
   }
 
@@ -204,8 +204,9 @@ class Run {
 
   /// Of the deck, or what the tolerance of the nonlinear solver allows.
   double kkt_tolerance(const complementarity::KktData& data) {
-    const double residual = params_.stopping.nonlinear_tolerance * evolution_.problem().reference_norm() +
-                            params_.stopping.absolute_tolerance + evolution_.round_off() + evolution_.problem().noise(*out_.X);
+    const complementarity::Problem& problem = evolution_.problem();
+    const double rounding = evolution_.round_off() + problem.noise(*out_.X);
+    const double residual = params_.stopping.nonlinear_residual(problem.reference_norm(), rounding);
     return params_.stopping.kkt_tolerance.value_or(data.allowed(residual));
   }
 
@@ -281,7 +282,7 @@ class Run {
     record.linear = out_.last.linear_iterations;
     record.active = out_.last.active;
     record.residual = out_.last.residuals.back();
-    record.energy_error = evolution_.energy_error();
+    record.energy_error = evolution_.error_so_far();
     if (params_.estimated()) record.of_step = eta_;
     record.so_far = evolution_.estimate_so_far();
     record.seconds = seconds;

@@ -11,7 +11,7 @@ struct Clauses {
   std::vector<std::string> missed;
 
   template <class T, class Bound>
-  void at_most(const char* what, const std::optional<T>& value, const std::optional<Bound>& bound) {
+  void at_most(const std::string& what, const std::optional<T>& value, const std::optional<Bound>& bound) {
     if (!bound) return;
     if (!value) missed.push_back(fmt::format("{} is not known", what));
     else if (!(*value <= *bound))
@@ -23,6 +23,10 @@ struct Clauses {
     else if (!(*value >= bounds->at(0) && *value <= bounds->at(1)))
       missed.push_back(fmt::format("{} {:.5g} is not between {:.5g} and {:.5g}", what, *value, bounds->at(0), bounds->at(1)));
   }
+  void within(const models::Expectation& expected) {
+    if (!expected.least) return at_most(expected.what, expected.value, expected.most);
+    between(expected.what, expected.value, std::vector<double>{*expected.least, *expected.most});
+  }
   void promised(const std::optional<complementarity::Promise>& promise, const std::optional<complementarity::Promise>& expected) {
     if (!expected) return;
     if (!promise) missed.push_back("what the bound promises is not known");
@@ -33,8 +37,11 @@ struct Clauses {
   }
 };
 
-std::optional<double> area(const Found& found) { return found.contact ? std::optional(found.contact->area) : std::nullopt; }
-std::optional<double> force(const Found& found) { return found.contact ? std::optional(found.contact->force) : std::nullopt; }
+/// A part of what may not be known.
+template <class T, class Part>
+auto part(const std::optional<T>& whole, Part f) -> std::optional<std::decay_t<decltype(f(*whole))>> {
+  return whole ? std::optional(f(*whole)) : std::nullopt;
+}
 
 }  // namespace
 
@@ -50,27 +57,6 @@ std::map<std::string, double> values_by_name(const ExpectParams& expect, const s
   return by_name;
 }
 
-Found found(const Outcome& outcome) {
-  Found found;
-  found.solved = !outcome.not_wanted;
-  found.energy_error = outcome.energy_error;
-  if (outcome.kkt) found.kkt = outcome.kkt->worst();
-  if (outcome.estimate) {
-    found.bound = outcome.estimate->total;
-    found.promise = outcome.estimate->promise;
-  }
-  found.effectivity = outcome.effectivity();
-  if (found.solved) found.energy_norm = outcome.energy_norm;
-  found.contact = outcome.contact;
-  found.at = outcome.at_points;
-  found.newton_iterations = outcome.at.newton_iterations;
-  found.newton_finest = outcome.at.newton_on_level;
-  found.linear_iterations = outcome.at.linear_iterations;
-  found.unknowns = outcome.discretization->sizes().unknowns_all;
-  found.cells = outcome.mesh->global_cells;
-  return found;
-}
-
 std::vector<std::string> missed(const ExpectParams& expect, const Found& found) {
   Clauses clauses;
   if (found.solved) {
@@ -79,25 +65,25 @@ std::vector<std::string> missed(const ExpectParams& expect, const Found& found) 
     clauses.at_most("number of Newton steps", found.newton_iterations, expect.newton_iterations_at_most);
     clauses.at_most("number of Newton steps on the finest level", found.newton_finest, expect.newton_finest_at_most);
     clauses.at_most("number of Krylov iterations", found.linear_iterations, expect.linear_iterations_at_most);
-    clauses.at_most("violation of the contact conditions", found.kkt, expect.kkt_at_most);
-    clauses.at_most("bound", found.bound, expect.bound_at_most);
-    clauses.promised(found.promise, expect.promise);
-    clauses.between("effectivity", found.effectivity, expect.effectivity_between);
-    clauses.at_most("number of time steps", found.steps, expect.steps_at_most);
-    clauses.at_most("number of steps that were begun again", found.retries, expect.retries_at_most);
-    clauses.at_most("defect of the water balance", found.water_balance, expect.water_balance_at_most);
-    clauses.at_most("defect of the hydrogen balance", found.hydrogen_balance, expect.hydrogen_balance_at_most);
-    clauses.between("front", found.front, expect.front_between);
+    clauses.at_most("violation of the contact conditions", part(found.kkt, [](const auto& kkt) { return kkt.worst(); }),
+                    expect.kkt_at_most);
+    clauses.at_most("bound", part(found.estimate, [](const auto& eta) { return eta.total; }), expect.bound_at_most);
+    clauses.promised(part(found.estimate, [](const auto& eta) { return eta.promise; }), expect.promise);
+    clauses.between("effectivity", found.effectivity(), expect.effectivity_between);
+    clauses.at_most("number of time steps", part(found.in_time, [](const auto& time) { return time.steps; }), expect.steps_at_most);
+    clauses.at_most("number of steps that were begun again", part(found.in_time, [](const auto& time) { return time.retries; }),
+                    expect.retries_at_most);
+    for (const models::Expectation& expected : found.of_model) clauses.within(expected);
     clauses.between("energy norm", found.energy_norm, expect.energy_norm_between);
-    clauses.between("contact area", area(found), expect.contact_area_between);
-    clauses.between("contact force", force(found), expect.force_between);
+    clauses.between("contact area", part(found.contact, [](const auto& contact) { return contact.area; }), expect.contact_area_between);
+    clauses.between("contact force", part(found.contact, [](const auto& contact) { return contact.force; }), expect.force_between);
     for (const auto& [name, at] : expect.at) {
       const auto value = found.at.find(name);
       clauses.between(fmt::format("{} at '{}'", at.field, name), value == found.at.end() ? std::nullopt : std::optional(value->second),
                       at.between);
     }
   }
-  clauses.equal("unknowns:", found.unknowns, expect.unknowns);
+  clauses.equal("unknowns:", found.sizes.unknowns_all, expect.unknowns);
   clauses.equal("cells:", found.cells, expect.cells);
   return clauses.missed;
 }

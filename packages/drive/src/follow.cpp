@@ -28,7 +28,7 @@ Observer Follow::observer() {
 
 bool Follow::save(const Position& at, const models::Discretization& discretization, const algebra::Vector& X) const {
   const core::Region region("output");
-  return checkpoint_.write(at, discretization, X, history_.rows(), seconds());
+  return checkpoint_.write(discretization, X, at.level, stored_by(at, history_.rows(), seconds()));
 }
 
 void Follow::begin_level(const mesh::Mesh& mesh, int level, const models::Sizes& sizes) const {

@@ -11,7 +11,7 @@ namespace thixis::drive {
 namespace log = core::log;
 
 FollowEvolution::FollowEvolution(const output::RunDirectory& directory, const RunParams& params, const models::Evolution& evolution,
-                                 const EvolutionCheckpoint& checkpoint, const Written& before, double first_time)
+                                 const CheckpointFile& checkpoint, const Written& before, double first_time)
     : params_(params),
       checkpoint_(checkpoint),
       before_(before),
@@ -106,7 +106,7 @@ void FollowEvolution::save(const TimePosition& at, double next_length, const mod
   if (fields_) written.frames = fields_->frames();
   written.last_frame = last_frame_;
   written.seconds = seconds();
-  checkpoint_.write(at, next_length, evolution, X, written);
+  checkpoint_.write(evolution, X, 0, stored_by(at, next_length, written));
 }
 
 std::string FollowEvolution::stop(const TimePosition& at, double next_length, const models::Evolution& evolution,

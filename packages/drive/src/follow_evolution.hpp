@@ -15,7 +15,7 @@ class FollowEvolution {
   /// `before`: what an interrupted run has left in this directory, of which the rows and frames up to its checkpoint stay; zeros: a new
   /// one. Collective.
   FollowEvolution(const output::RunDirectory& directory, const RunParams& params, const models::Evolution& evolution,
-                  const EvolutionCheckpoint& checkpoint, const Written& before, double first_time);
+                  const CheckpointFile& checkpoint, const Written& before, double first_time);
 
   EvolutionObserver observer();
   /// Fields of the last state, unless they are there already; closes the series of fields.
@@ -37,7 +37,7 @@ class FollowEvolution {
   void show(int step, double time, const models::Evolution& evolution, const algebra::Vector& X, const complementarity::ActiveSet& active);
 
   const RunParams& params_;
-  const EvolutionCheckpoint& checkpoint_;
+  const CheckpointFile& checkpoint_;
   Written before_;
   output::History history_;
   std::optional<output::Series> series_;       ///< where the scene has one

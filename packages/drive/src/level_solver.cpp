@@ -49,8 +49,8 @@ void LevelSolver::set_mesh(int level) {
 void LevelSolver::run_newton() {
   complementarity::NewtonParams newton = params_.newton;
   const bool nested = newton.start == complementarity::Start::nested || outcome_.nested;
-  if (!newton.sweeps) newton.sweeps = nested && params_.method.symmetric() ? 10 : 0;
   models::Discretization& discretization = *outcome_.discretization;
+  if (!newton.sweeps) newton.sweeps = nested ? discretization.sweeps() : 0;
   const int linear_before = outcome_.at.linear_iterations;
   outcome_.finest = complementarity::newton(discretization.problem(), *outcome_.X, newton, params_.stopping, params_.linear.check_every,
                                             on_level(), [this](const algebra::Vector& X) { return look(X); });

@@ -88,14 +88,17 @@ void say_doubts(const std::optional<complementarity::Estimate>& eta, const std::
   log::info("the bound is {}: {}", to_text(eta->promise), fmt::join(doubts, "; "));
 }
 
-output::Summary begin_summary(const RunParams& params, const models::Model& model, const Verdict& verdict, const core::Comm& comm,
-                              double seconds, const Versions& versions) {
+namespace {
+
+/// Verdict, model, method, ranks, times, memory, versions.
+output::Summary begun(const RunParams& params, const models::Model& model, const Verdict& verdict, const core::Comm& comm, double seconds,
+                      const Versions& versions) {
   output::Summary summary;
   summary.verdict = verdict.sentence;
   summary.exit_code = static_cast<int>(verdict.code);
   summary.model = model.name();
   summary.problem_case = model.case_name();
-  summary.method = method::to_text(params.method.name);
+  summary.method = params.method.name;
   summary.degree = params.method.degree;
   summary.ranks = comm.size();
   summary.threads = Kokkos::DefaultExecutionSpace::concurrency();
@@ -104,6 +107,37 @@ output::Summary begin_summary(const RunParams& params, const models::Model& mode
                   longest("linear"), longest("estimate"), longest("output")};
   summary.memory_mb = comm.sum(core::peak_memory_mb());
   summary.versions = versions;
+  return summary;
+}
+
+}  // namespace
+
+output::Summary summarize(const RunParams& params, const models::Model& model, const Found& found, const Verdict& verdict,
+                          const core::Comm& comm, double seconds, const Versions& versions) {
+  output::Summary summary = begun(params, model, verdict, comm, seconds, versions);
+  summary.cells = found.cells;
+  summary.unknowns.all = found.sizes.unknowns_all;
+  summary.unknowns.global = found.sizes.unknowns_global;
+  summary.nonzeros = found.sizes.nonzeros;
+  summary.newton_iterations = found.newton_iterations.value_or(0);
+  summary.newton_finest = found.newton_finest.value_or(0);
+  summary.linear_iterations = found.linear_iterations.value_or(0);
+  summary.in_time = found.in_time;
+  summary.energy_error = found.energy_error;
+  summary.energy_norm = found.energy_norm;
+  summary.effectivity = found.effectivity();
+  if (found.estimate) summary.estimate = parts(*found.estimate, found.doubts);
+  if (found.published) {
+    summary.estimate_published = parts(found.published->parts);
+    summary.estimate_published->terms = found.published->terms;
+    if (found.energy_error) summary.effectivity_published = found.published->parts.total / *found.energy_error;
+  }
+  if (found.kkt) {
+    const auto& kkt = *found.kkt;
+    summary.kkt = {kkt.infeasible, kkt.negative, kkt.complementary, kkt.between_nodes, kkt.equilibrium};
+  }
+  summary.active_points = found.active;
+  summary.of_model = found.summary;
   return summary;
 }
 

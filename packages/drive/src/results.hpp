@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "expectations.hpp"
 #include "thixis/core/comm.hpp"
 #include "thixis/core/deck.hpp"
 #include "thixis/drive/params.hpp"
@@ -38,9 +39,9 @@ void add_estimates(const OutputParams& params, const models::CellEstimates& cell
 output::SummaryEstimate parts(const complementarity::Estimate& eta, const std::vector<std::string>& doubts = {});
 /// Says them.
 void say_doubts(const std::optional<complementarity::Estimate>& eta, const std::vector<std::string>& doubts);
-/// A summary with what does not depend on the kind of the scene: verdict, model, method, ranks, times, memory, versions.
-output::Summary begin_summary(const RunParams& params, const models::Model& model, const Verdict& verdict, const core::Comm& comm,
-                              double seconds, const Versions& versions);
+/// The summary of a run, at rest or in time.
+output::Summary summarize(const RunParams& params, const models::Model& model, const Found& found, const Verdict& verdict,
+                          const core::Comm& comm, double seconds, const Versions& versions);
 
 /// Table of times, folder, verdict: the end of the log.
 core::ExitCode conclude(const output::RunDirectory& directory, const Verdict& verdict, const std::string& invitation,

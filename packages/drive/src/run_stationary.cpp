@@ -34,34 +34,6 @@ std::string invitation(const std::string& checkpoint, const RunParams& params, c
                      too_few ? fmt::format(" --set \"newton/max iterations={}\"", std::max(50LL, 2LL * most)) : "");
 }
 
-output::Summary summarize(const RunParams& params, const models::Model& model, const Outcome& outcome, const Verdict& verdict,
-                          const core::Comm& comm, double seconds, const Versions& versions) {
-  output::Summary summary = begin_summary(params, model, verdict, comm, seconds, versions);
-  const auto sizes = outcome.discretization->sizes();
-  summary.cells = outcome.mesh->global_cells;
-  summary.unknowns.all = sizes.unknowns_all;
-  summary.unknowns.global = sizes.unknowns_global;
-  summary.nonzeros = sizes.nonzeros;
-  summary.newton_iterations = outcome.at.newton_iterations;
-  summary.newton_finest = outcome.at.newton_on_level;
-  summary.linear_iterations = outcome.at.linear_iterations;
-  summary.energy_error = outcome.energy_error;
-  if (outcome.estimate) summary.estimate = parts(*outcome.estimate, outcome.discretization->doubts());
-  summary.effectivity = outcome.effectivity();
-  if (outcome.published) {
-    summary.estimate_published = parts(outcome.published->parts);
-    summary.estimate_published->terms = outcome.published->terms;
-    if (outcome.energy_error) summary.effectivity_published = outcome.published->parts.total / *outcome.energy_error;
-  }
-  summary.active_points = outcome.finest.active;
-  if (outcome.kkt) {
-    const auto& kkt = *outcome.kkt;
-    summary.kkt = {kkt.infeasible, kkt.negative, kkt.complementary, kkt.between_nodes, kkt.equilibrium};
-    summary.energy_norm = outcome.energy_norm;
-  }
-  return summary;
-}
-
 void write_fields(const output::RunDirectory& directory, const OutputParams& params, const Outcome& outcome, const core::Comm& comm) {
   const core::Region region("output");
   const output::Grid grid = outcome.discretization->grid();
@@ -102,12 +74,12 @@ core::ExitCode run_stationary(const RunParams& params, const models::StationaryM
   }
 
   output::RunDirectory directory(params.output.directory);
-  CheckpointFile checkpoint(directory.checkpoint(), params, deck, hierarchy);
+  CheckpointFile checkpoint(directory.checkpoint(), params, deck);
   if (stored) {
     replay(*stored, hierarchy, checkpoint);
     check_restart(*stored, params, hierarchy);
   }
-  const bool goes_on = stored && same_directory(*stored, directory.path());
+  const bool goes_on = stored && same_directory(*stored, params, directory.path());
   open(directory, params, deck, goes_on, comm);
   introduce(deck, model, comm, versions);
   if (stored) {
@@ -126,9 +98,9 @@ core::ExitCode run_stationary(const RunParams& params, const models::StationaryM
 
   if (!outcome.not_wanted && !params.output.no_fields()) write_fields(directory, params.output, outcome, comm);
   if (!outcome.not_wanted && !asked.probes.empty()) write_probes(directory, model, asked.probes, outcome, comm);
-  const auto summary = summarize(params, model, outcome, verdict, comm, clock.seconds(), versions);
-  summary.write(directory.summary(), comm);
-  say_doubts(outcome.estimate, outcome.discretization->doubts());
+  const Found seen = found(outcome);
+  summarize(params, model, seen, verdict, comm, clock.seconds(), versions).write(directory.summary(), comm);
+  say_doubts(seen.estimate, seen.doubts);
   const bool invite = kept && verdict.code == ExitCode::not_converged;
   return conclude(directory, verdict, invite ? invitation(checkpoint.path(), params, outcome) : "", comm, clock.seconds());
 }

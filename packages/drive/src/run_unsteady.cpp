@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <Teuchos_RCP.hpp>
-#include <cmath>
 
 #include "checkpoint.hpp"
 #include "expectations.hpp"
@@ -14,6 +13,7 @@
 #include "thixis/core/text.hpp"
 #include "thixis/core/timer.hpp"
 #include "thixis/drive/run.hpp"
+#include "verdict_in_time.hpp"
 
 namespace thixis::drive {
 namespace {
@@ -23,140 +23,6 @@ namespace log = core::log;
 
 void say_where(const TimePosition& from) {
   log::info("goes on from time {:.6g}, behind step {} ({} Newton steps so far)", from.time, from.step, from.newton_iterations);
-}
-
-std::optional<double> effectivity(const models::Evolution& evolution) {
-  const auto error = evolution.energy_error();
-  const auto bound = evolution.estimate_so_far();
-  if (!error || !bound) return {};
-  return bound->total / *error;
-}
-
-Found found(const RunParams& params, const models::Model& model, const models::Evolution& evolution, const EvolutionOutcome& outcome) {
-  Found found;
-  found.solved = !outcome.not_wanted;
-  if (found.solved) {
-    found.energy_error = evolution.energy_error();
-    if (outcome.kkt) found.kkt = outcome.kkt->worst();
-    if (const auto bound = evolution.estimate_so_far()) {
-      found.bound = bound->total;
-      found.promise = bound->promise;
-    }
-    found.effectivity = effectivity(evolution);
-    found.newton_iterations = outcome.at.newton_iterations;
-    found.newton_finest = outcome.last.steps;
-    found.linear_iterations = outcome.at.linear_iterations;
-    found.steps = outcome.at.step;
-    found.retries = outcome.at.retries;
-    for (const models::Balance& balance : evolution.balances())
-      (balance.name == "water" ? found.water_balance : found.hydrogen_balance) = balance.worst_step;
-    found.front = evolution.front(*outcome.X);
-    found.contact = evolution.contact(*outcome.X);
-    if (!params.expect.at.empty())
-      found.at = values_by_name(params.expect, model.point_fields(), evolution.values_at(wanted(params).expected, *outcome.X));
-  }
-  found.unknowns = evolution.sizes().unknowns_all;
-  found.cells = evolution.cells();
-  return found;
-}
-
-/// Where most of a bound comes from the lengths of the steps, it says nothing of the mesh. No number: `time` is a sum of roots, the bound
-/// the root of a sum, and the part may be larger than the whole.
-std::string time_decides(const complementarity::Estimate& bound) {
-  if (!(bound.time.value_or(0) > 0.7 * bound.total)) return "";
-  return ", most of it for the lengths of the steps: shorter ones (time/step) make it smaller, a finer mesh does not";
-}
-
-/// Without the shares of all steps there is no bound over all time.
-constexpr const char* not_bounded =
-    "steps before the checkpoint ran without stopping/estimate = true, so that their share in the error is unknown";
-
-/// What is known of the error and of the solution, in clauses.
-std::string qualities(const RunParams& params, const models::Evolution& evolution, const EvolutionOutcome& outcome) {
-  std::string clauses;
-  const auto error = evolution.energy_error();
-  if (error) clauses += fmt::format("; energy error {:.4e}", *error);
-  if (params.estimated() && !evolution.every_step_estimated()) clauses += fmt::format("; no bound on the error: {}", not_bounded);
-  if (const auto bound = evolution.estimate_so_far()) {
-    const double norm = std::sqrt(outcome.at.time) * evolution.energy_norm(*outcome.X);
-    clauses += "; " + bound_clause(evolution.bound_name(), *bound) + contradiction(*bound, error, norm) + time_decides(*bound);
-  }
-  for (const models::Balance& balance : evolution.balances())
-    clauses += fmt::format("; {} balanced to {:.1e} in every step", balance.name, balance.worst_step);
-  if (outcome.kkt) {
-    const bool judged = params.stopping.rule != complementarity::StoppingRule::adaptive;
-    const char* unjudged = judged || outcome.kkt->holds(outcome.kkt_tolerance) ? "" : ", which the rule adaptive does not judge";
-    clauses += fmt::format("; contact conditions hold to {:.1e}{}", outcome.kkt->worst(), unjudged);
-  }
-  return clauses;
-}
-
-std::string effort(const TimePosition& at) {
-  return fmt::format("{} time step{}, {} Newton step{} and {} Krylov iteration{}", at.step, at.step == 1 ? "" : "s", at.newton_iterations,
-                     at.newton_iterations == 1 ? "" : "s", at.linear_iterations, at.linear_iterations == 1 ? "" : "s") +
-         (at.retries > 0 ? fmt::format(" ({} attempt{} given up)", at.retries, at.retries == 1 ? "" : "s") : "");
-}
-
-Verdict judge(const RunParams& params, const models::Model& model, const models::Evolution& evolution, const core::Deck& deck,
-              const EvolutionOutcome& outcome) {
-  const std::string clauses = fmt::format("{}", fmt::join(missed(params.expect, found(params, model, evolution, outcome)), "; "));
-  if (outcome.not_wanted) {
-    if (!clauses.empty()) return {ExitCode::target_missed, "not solved (max iterations = 0), and not as expected: " + clauses + "."};
-    return {ExitCode::done, "not solved: max iterations = 0 only counts the unknowns."};
-  }
-  if (!outcome.stopped.empty())
-    return {ExitCode::interrupted,
-            fmt::format("{} at time {:.6g} of {:.6g}, after {}.", outcome.stopped, outcome.at.time, params.time->end, effort(outcome.at))};
-  if (!outcome.mistake.empty())
-    return {ExitCode::input, fmt::format("solved up to time {:.6g} of {:.6g}, in {}; then: {}", outcome.at.time, params.time->end,
-                                         effort(outcome.at), deck.located(core::InputError(outcome.mistake)).what())};
-  if (!outcome.solved) return {ExitCode::not_converged, "not converged: " + outcome.why};
-  if (params.stopping.rule != complementarity::StoppingRule::adaptive && outcome.kkt && !outcome.kkt->holds(outcome.kkt_tolerance))
-    return {ExitCode::not_converged, not_in_contact(outcome.last, *outcome.kkt, outcome.kkt_tolerance)};
-  const auto bound = evolution.estimate_so_far();
-  if (params.stopping.target && bound && bound->total > *params.stopping.target)
-    return {
-        ExitCode::target_missed,
-        fmt::format(
-            "target missed: {}, not {:g}{}{}{}.", bound_clause(evolution.bound_name(), *bound), *params.stopping.target,
-            outcome.refinement_limited
-                ? "; adapt/max levels or adapt/max unknowns kept the mesh from becoming finer: allow more, or take a higher method/degree"
-                : "",
-            outcome.steps_too_long ? "; most of it is for the lengths of the steps: take shorter ones (time/step)" : "",
-            clauses.empty() ? "" : "; besides, not as expected: " + clauses)};
-  if (params.stopping.target && !bound)
-    return {ExitCode::target_missed, fmt::format("stopping/target = {:g} can not be judged: {}.", *params.stopping.target, not_bounded)};
-  if (!clauses.empty()) return {ExitCode::target_missed, "solved, but not as expected: " + clauses + "."};
-  return {ExitCode::done, fmt::format("solved in {}{}.", effort(outcome.at), qualities(params, evolution, outcome))};
-}
-
-output::Summary summarize(const RunParams& params, const models::Model& model, const models::Evolution& evolution,
-                          const EvolutionOutcome& outcome, const Verdict& verdict, double seconds, const Versions& versions) {
-  output::Summary summary = begin_summary(params, model, verdict, evolution.comm(), seconds, versions);
-  const auto sizes = evolution.sizes();
-  summary.cells = evolution.cells();
-  summary.unknowns.all = sizes.unknowns_all;
-  summary.unknowns.global = sizes.unknowns_global;
-  summary.nonzeros = sizes.nonzeros;
-  if (outcome.not_wanted) return summary;
-  summary.newton_iterations = outcome.at.newton_iterations;
-  summary.newton_finest = outcome.last.steps;
-  summary.linear_iterations = outcome.at.linear_iterations;
-  summary.energy_error = evolution.energy_error();
-  if (const auto bound = evolution.estimate_so_far()) summary.estimate = parts(*bound, evolution.doubts());
-  summary.effectivity = effectivity(evolution);
-  summary.active_points = outcome.active.count();
-  if (outcome.kkt) {
-    const auto& kkt = *outcome.kkt;
-    summary.kkt = {kkt.infeasible, kkt.negative, kkt.complementary, kkt.between_nodes, kkt.equilibrium};
-  }
-  summary.in_time = output::SummaryTime{outcome.at.step, outcome.at.retries, outcome.at.time};
-  if (const auto balances = evolution.balances(); !balances.empty()) {
-    summary.flow.emplace();
-    for (const models::Balance& balance : balances) summary.flow->mass_balance.push_back({balance.name, balance.worst_step, balance.total});
-    summary.flow->front = evolution.front(*outcome.X);
-  }
-  return summary;
 }
 
 /// Behind steps without estimate no bound can be had; a rule or a step control that only looks at the steps to come may still use theirs.
@@ -182,7 +48,8 @@ void check_restart(const output::StoredCheckpoint& stored, const StoredEvolution
   if (from.at.time >= params.time->end)
     throw core::InputError(fmt::format("time/end: the checkpoint '{}' is at time {:g} already; write a later end than {:g}.", stored.path(),
                                        from.at.time, params.time->end));
-  if (goes_on && core::Deck::from_text(stored.deck(), stored.path()).parse(RunParams::schema()).output.probes != params.output.probes)
+  if (goes_on &&
+      core::Deck::from_text(stored.deck(), stored.path()).parse(params.catalogue->schema()).output.probes != params.output.probes)
     throw core::InputError(
         "output/probes: series.csv goes on with the probes it has; leave them as they were, or write to another folder with --output.");
   evolution.restore(stored);  // throws where scene, mesh or method are others
@@ -206,8 +73,8 @@ core::ExitCode run_unsteady(const RunParams& params, const models::UnsteadyModel
     evolution = model.evolve(params.mesh, comm, deck.folder(), wanted(params));
   }
   output::RunDirectory directory(params.output.directory);
-  const EvolutionCheckpoint checkpoint(directory.checkpoint(), params, deck);
-  const bool goes_on = stored && same_directory(*stored, directory.path());
+  const CheckpointFile checkpoint(directory.checkpoint(), params, deck);
+  const bool goes_on = stored && same_directory(*stored, params, directory.path());
   const StoredEvolution from = stored ? stored_evolution(*stored) : StoredEvolution{};
   if (stored) check_restart(*stored, from, params, goes_on, *evolution);
   evolution->check(known_times(*params.time, evolution->jumps(), from.at.time));
@@ -237,9 +104,10 @@ core::ExitCode run_unsteady(const RunParams& params, const models::UnsteadyModel
     if (!outcome.solved) invite = invitation(checkpoint.path(), outcome);
     follow.finish(*evolution, outcome);
   }
-  const Verdict verdict = judge(params, model, *evolution, deck, outcome);
-  summarize(params, model, *evolution, outcome, verdict, clock.seconds(), versions).write(directory.summary(), comm);
-  if (!outcome.not_wanted) say_doubts(evolution->estimate_so_far(), evolution->doubts());
+  const Found seen = found(params, model, *evolution, outcome);
+  const Verdict verdict = judge(ending(params, *evolution, deck, outcome), missed(params.expect, seen));
+  summarize(params, model, seen, verdict, comm, clock.seconds(), versions).write(directory.summary(), comm);
+  if (!outcome.not_wanted) say_doubts(seen.estimate, seen.doubts);
   return conclude(directory, verdict, invite, comm, clock.seconds());
 }
 

@@ -37,21 +37,6 @@ std::optional<double> coarsest_cells(const mesh::MeshParams& params) {
   return std::nullopt;
 }
 
-/// Of one field: a triangle has half a vertex, 3/2 faces, and its inside.
-double unknowns_per_cell(const method::MethodParams& method) {
-  const double p = method.degree;
-  switch (method.name) {
-    case method::MethodName::fem:
-      return p * p / 2;
-    case method::MethodName::dg:
-      return (p + 1) * (p + 2) / 2;
-    case method::MethodName::hho:
-      return 1.5 * (p + 1) + (p + 1) * (p + 2) / 2;
-    default:
-      return 1;
-  }
-}
-
 }  // namespace
 
 std::optional<double> planned_cells(const mesh::MeshParams& params) {
@@ -61,8 +46,8 @@ std::optional<double> planned_cells(const mesh::MeshParams& params) {
 }
 
 double least_memory_mb(const RunParams& params, double cells) {
-  const double fields = params.scene.model == scene::Model::obstacle ? 2 : 3;  // with the multiplier; pressure, saturation, hydrogen
-  return cells * fields * unknowns_per_cell(params.method) * bytes_per_unknown / 1e6;
+  const models::Catalogue& known = *params.catalogue;
+  return cells * known.model(params).fields * known.method(params).unknowns_per_cell(params.method) * bytes_per_unknown / 1e6;
 }
 
 void require_memory(const RunParams& params, double cells, const core::Comm& comm) {

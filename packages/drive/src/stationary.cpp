@@ -22,8 +22,7 @@ void verify(Outcome& outcome, const RunParams& params, const models::Model& mode
   const core::Region region("verification");
   const auto kkt_data = discretization.kkt_data(*outcome.X);
   const complementarity::Problem& problem = discretization.problem();
-  const double residual =
-      params.stopping.nonlinear_tolerance * problem.reference_norm() + params.stopping.absolute_tolerance + problem.noise(*outcome.X);
+  const double residual = params.stopping.nonlinear_residual(problem.reference_norm(), problem.noise(*outcome.X));
   outcome.kkt = complementarity::verify(kkt_data);
   outcome.kkt_tolerance = params.stopping.kkt_tolerance.value_or(kkt_data.allowed(residual));
   if (!params.estimated()) outcome.energy_error = discretization.energy_error(*outcome.X);

@@ -21,23 +21,24 @@ bool fixed(const std::string& path) {
 }
 
 /// What only a run from the beginning looks at.
-bool of_the_beginning(const std::string& path) {
-  for (const char* list : {"newton/initial", "scene/data/initial", "scene/flow/initial"})
-    if (path == list || begins_with(path, std::string(list) + "/")) return true;
+bool of_the_beginning(const models::Catalogue& catalogue, const std::string& path) {
+  for (const models::Family& family : catalogue.families())
+    for (const std::string& block : family.beginning)
+      if (path == block || begins_with(path, block + "/")) return true;
   return false;
 }
 
 }  // namespace
 
 void check_unchanged(const output::StoredCheckpoint& stored, const RunParams& params) {
-  const auto before = core::Deck::from_text(stored.deck(), stored.path()).parse(RunParams::schema());
+  const auto before = core::Deck::from_text(stored.deck(), stored.path()).parse(params.catalogue->schema());
   std::vector<std::string> mistakes;
-  for (const auto& difference : core::differences(RunParams::schema(), before, params)) {
+  for (const auto& difference : core::differences(params.catalogue->schema(), before, params)) {
     const std::string& path = difference.path;
     if (fixed(path))
       mistakes.push_back(
           fmt::format("{}: the checkpoint '{}' belongs to another model, mesh or method; leave this as it was.", path, stored.path()));
-    if (of_the_beginning(path))
+    if (of_the_beginning(*params.catalogue, path))
       mistakes.push_back(fmt::format("{}: a restart begins with the state of the checkpoint; leave this as it was.", path));
   }
   if (!mistakes.empty()) throw core::InputError(fmt::format("{}", fmt::join(mistakes, "\n")));

@@ -52,6 +52,24 @@ std::string target_missed(const RunParams& params, const Outcome& outcome) {
                      outcome.refinement_ended, outcome.to_try);
 }
 
+std::string failed(const RunParams& params, const Outcome& outcome) {
+  if (!outcome.solved) return not_converged(outcome.finest);
+  if (params.stopping.rule != complementarity::StoppingRule::adaptive && !outcome.kkt->holds(outcome.kkt_tolerance))
+    return not_in_contact(outcome.finest, *outcome.kkt, outcome.kkt_tolerance);
+  return outcome.rounding.of_contact > too_much ? hidden(outcome.rounding) : "";
+}
+
+Ending ending(const RunParams& params, const Outcome& outcome) {
+  Ending ending;
+  ending.not_wanted = outcome.not_wanted;
+  if (ending.not_wanted) return ending;
+  ending.failed = failed(params, outcome);
+  if (!ending.failed.empty()) return ending;
+  if (params.stopping.target && !outcome.refinement_ended.empty()) ending.target = target_missed(params, outcome);
+  else ending.solved = solved(params, outcome);
+  return ending;
+}
+
 }  // namespace
 
 std::string bound_clause(const std::string& name, const complementarity::Estimate& eta) {
@@ -82,22 +100,23 @@ std::string not_in_contact(const complementarity::NewtonReport& newton, const co
       newton.why, kkt.sentence(tolerance));
 }
 
-Verdict judge(const RunParams& params, const Outcome& outcome) {
-  const auto missing = missed(params.expect, found(outcome));
-  const std::string clauses = fmt::format("{}", fmt::join(missing, "; "));
-  if (outcome.not_wanted) {
-    if (!missing.empty()) return {ExitCode::target_missed, "not solved (max iterations = 0), and not as expected: " + clauses + "."};
+Verdict judge(const Ending& ending, const std::vector<std::string>& missed) {
+  const std::string clauses = fmt::format("{}", fmt::join(missed, "; "));
+  if (ending.not_wanted) {
+    if (!missed.empty()) return {ExitCode::target_missed, "not solved (max iterations = 0), and not as expected: " + clauses + "."};
     return {ExitCode::done, "not solved: max iterations = 0 only counts the unknowns."};
   }
-  if (!outcome.solved) return {ExitCode::not_converged, not_converged(outcome.finest)};
-  if (params.stopping.rule != complementarity::StoppingRule::adaptive && !outcome.kkt->holds(outcome.kkt_tolerance))
-    return {ExitCode::not_converged, not_in_contact(outcome.finest, *outcome.kkt, outcome.kkt_tolerance)};
-  if (outcome.rounding.of_contact > too_much) return {ExitCode::not_converged, hidden(outcome.rounding)};
-  if (params.stopping.target && !outcome.refinement_ended.empty())
-    return {ExitCode::target_missed,
-            target_missed(params, outcome) + (missing.empty() ? "" : "; besides, not as expected: " + clauses) + "."};
-  if (!missing.empty()) return {ExitCode::target_missed, "solved, but not as expected: " + clauses + "."};
-  return {ExitCode::done, solved(params, outcome)};
+  if (!ending.interrupted.empty()) return {ExitCode::interrupted, ending.interrupted};
+  if (!ending.mistaken.empty()) return {ExitCode::input, ending.mistaken};
+  if (!ending.failed.empty()) return {ExitCode::not_converged, ending.failed};
+  if (!ending.target.empty())
+    return {ExitCode::target_missed, ending.target + (missed.empty() ? "" : "; besides, not as expected: " + clauses) + "."};
+  if (!missed.empty()) return {ExitCode::target_missed, "solved, but not as expected: " + clauses + "."};
+  return {ExitCode::done, ending.solved};
+}
+
+Verdict judge(const RunParams& params, const Outcome& outcome) {
+  return judge(ending(params, outcome), missed(params.expect, found(outcome)));
 }
 
 }  // namespace thixis::drive

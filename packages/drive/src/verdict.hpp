@@ -1,6 +1,7 @@
 #pragma once
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "thixis/core/error.hpp"
 #include "thixis/drive/stationary.hpp"
@@ -24,7 +25,18 @@ std::string bound_clause(const std::string& name, const complementarity::Estimat
 /// measure.
 std::string contradiction(const complementarity::Estimate& eta, std::optional<double> error, double norm);
 
-/// Did the run do what was asked, in one sentence.
+/// How a run ended, in sentences; the first one that is not empty speaks.
+struct Ending {
+  bool not_wanted = false;  ///< max iterations = 0
+  std::string interrupted;  ///< told to end
+  std::string mistaken;     ///< data of a later step are wrong
+  std::string failed;       ///< not converged, or no solution
+  std::string target;       ///< the target is missed, without the full stop
+  std::string solved;
+};
+
+/// Did the run do what was asked, in one sentence. `missed`: expectations, a clause each.
+Verdict judge(const Ending& ending, const std::vector<std::string>& missed);
 Verdict judge(const RunParams& params, const Outcome& outcome);
 
 }  // namespace thixis::drive

@@ -3,7 +3,6 @@
 #include "lagrange_nodes.hpp"
 #include "mass.hpp"
 #include "thixis/algebra/tpetra.hpp"
-#include "thixis/fem/forms.hpp"
 
 namespace thixis::fem {
 namespace {
@@ -30,7 +29,5 @@ std::unique_ptr<method::Space> make_lagrange_space(const mesh::Mesh& mesh, const
   auto structure = method::in_components(options, [&](const method::SpaceOptions& scalar) { return lagrange_nodes(mesh, scalar); });
   return std::make_unique<method::Space>(mesh, options, std::move(structure), std::make_unique<LagrangeLayout>(options.params.degree));
 }
-
-method::Method lagrange() { return {"fem", make_lagrange_space, diffusion, {}}; }
 
 }  // namespace thixis::fem

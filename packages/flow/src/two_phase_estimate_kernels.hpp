@@ -115,7 +115,7 @@ struct BrokenFluxes {
   fv::RaviartThomas cells;
   TwoPhaseLaws laws;
   fv::View<double*> distance;
-  fv::View<scene::FlowBoundaryKind*> kind;
+  fv::View<FlowBoundaryKind*> kind;
   fv::View<PhaseState*> states, outside;
   fv::View<fv::Quadratic**> p;                        ///< out, overwritten: potentials of owned cells
   fv::View<double* [most_faces][components]> fluxes;  ///< out, overwritten: outward, of owned cells
@@ -124,14 +124,14 @@ struct BrokenFluxes {
     const LocalIndex F = cells.face(K, f);
     return cells.sign(K, f) * (laws.gravity[0] * cells.normal(F, 0) + laws.gravity[1] * cells.normal(F, 1));
   }
-  KOKKOS_FUNCTION bool given_flux(LocalIndex K, int f) const { return kind(cells.face(K, f)) == scene::FlowBoundaryKind::flux; }
+  KOKKOS_FUNCTION bool given_flux(LocalIndex K, int f) const { return kind(cells.face(K, f)) == FlowBoundaryKind::flux; }
 
   /// Of potential j, but where the flux is given.
   KOKKOS_FUNCTION double derivative(LocalIndex K, int f, int j) const {
     const LocalIndex F = cells.face(K, f), L = cells.neighbour(K, f);
     const PhaseState& U = states(K);
     if (L >= 0) return (potential(states(L), j) - potential(U, j)) / distance(F);
-    if (kind(F) == scene::FlowBoundaryKind::state) return (potential(outside(F), j) - potential(U, j)) / distance(F);
+    if (kind(F) == FlowBoundaryKind::state) return (potential(outside(F), j) - potential(U, j)) / distance(F);
     return j == of_liquid ? laws.rho_w * gravity(K, f) : j == of_gas ? laws.beta_g * U.P_g.value * gravity(K, f) : 0;
   }
 
@@ -174,11 +174,11 @@ struct BrokenFluxes {
 
 /// The potentials outside, on faces of kind state.
 struct GivenPotentials {
-  fv::View<scene::FlowBoundaryKind*> kind;
+  fv::View<FlowBoundaryKind*> kind;
   fv::View<PhaseState*> outside;
   fv::View<double**> values;  ///< out, overwritten
   KOKKOS_FUNCTION void operator()(LocalIndex F) const {
-    for (int j = 0; j < potentials; ++j) values(F, j) = kind(F) == scene::FlowBoundaryKind::state ? potential(outside(F), j) : 0;
+    for (int j = 0; j < potentials; ++j) values(F, j) = kind(F) == FlowBoundaryKind::state ? potential(outside(F), j) : 0;
   }
 };
 

@@ -35,8 +35,8 @@ void set_quadratic(TwoPhaseLaws& laws, bool wanted) {
 
 }  // namespace
 
-TwoPhaseLaws two_phase_laws(const scene::TwoPhaseScene& scene) {
-  const scene::RockAndFluids& given = scene.medium;
+TwoPhaseLaws two_phase_laws(const TwoPhaseScene& scene) {
+  const RockAndFluids& given = scene.medium;
   TwoPhaseLaws laws{};
   laws.porosity = given.porosity;
   laws.permeability = given.permeability;
@@ -56,7 +56,7 @@ TwoPhaseLaws two_phase_laws(const scene::TwoPhaseScene& scene) {
   laws.eps = given.regularization;
   set_wet_end(laws);
   set_dry_end(laws);
-  set_quadratic(laws, scene.capillary_law == scene::CapillaryLaw::quadratic);
+  set_quadratic(laws, scene.capillary_law == CapillaryLaw::quadratic);
   return laws;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <Kokkos_Core.hpp>
 
-#include "thixis/scene/two_phase.hpp"
+#include "thixis/flow/scene.hpp"
 
 /// Constitutive laws and face fluxes of two-phase flow with their derivatives (docs/methods/two_phase.md, 2 and 3). SI units.
 namespace thixis::flow {
@@ -188,6 +188,6 @@ struct TwoPhaseLaws {
   }
 };
 
-TwoPhaseLaws two_phase_laws(const scene::TwoPhaseScene& scene);
+TwoPhaseLaws two_phase_laws(const TwoPhaseScene& scene);
 
 }  // namespace thixis::flow

@@ -12,8 +12,8 @@
 namespace thixis::flow {
 namespace {
 
+using FlowBoundaryKind;
 using algebra::Vector;
-using scene::FlowBoundaryKind;
 
 constexpr double negligible = 1e-9;  // of the pressures of which that of the gas is the sum
 
@@ -60,7 +60,7 @@ Places part_of_boundary(const fv::Grid& grid, const std::string& name) {
 }
 
 /// The state of the scene at these places. Throws InputError for values that are no state, on this rank only.
-std::vector<PhaseState> states_of(const scene::FlowState& state, const TwoPhaseLaws& laws, const Places& places, double t,
+std::vector<PhaseState> states_of(const FlowState& state, const TwoPhaseLaws& laws, const Places& places, double t,
                                   const std::string& path) {
   const auto s_g = places.values(state.s_g, t), P = places.values(state.P, t), chi = places.values(state.chi, t);
   std::vector<PhaseState> states;
@@ -133,7 +133,7 @@ struct FluxesOf {
 
 }  // namespace
 
-TwoPhaseOperator::TwoPhaseOperator(fv::Grid grid, const scene::TwoPhaseScene& scene, double seconds_per_unit)
+TwoPhaseOperator::TwoPhaseOperator(fv::Grid grid, const TwoPhaseScene& scene, double seconds_per_unit)
     : grid_(std::move(grid)),
       scene_(scene),
       seconds_per_unit_(seconds_per_unit),
@@ -146,7 +146,7 @@ TwoPhaseOperator::TwoPhaseOperator(fv::Grid grid, const scene::TwoPhaseScene& sc
   set_boundary(scene);
 }
 
-void TwoPhaseOperator::set_boundary(const scene::TwoPhaseScene& scene) {
+void TwoPhaseOperator::set_boundary(const TwoPhaseScene& scene) {
   const auto kind = Kokkos::create_mirror_view(face_kind_);
   Kokkos::deep_copy(kind, FlowBoundaryKind::no_flow);
   std::vector<std::string> names;

@@ -21,14 +21,14 @@ struct FlowStep {
 class TwoPhaseOperator {
  public:
   /// Throws InputError for parts of the boundary that the grid does not have. Collective.
-  TwoPhaseOperator(fv::Grid grid, const scene::TwoPhaseScene& scene, double seconds_per_unit);
+  TwoPhaseOperator(fv::Grid grid, const TwoPhaseScene& scene, double seconds_per_unit);
 
   const fv::Grid& grid() const { return grid_; }
   const TwoPhaseLaws& laws() const { return laws_; }
   const algebra::MapPtr& cells() const { return cells_; }            ///< owned cells
   const algebra::MapPtr& map() const { return map_; }                ///< of X: 3 cell + 0, 1, 2
   const algebra::MapPtr& column_map() const { return column_map_; }  ///< likewise, with the ghosts, in the order of the local cells
-  const fv::View<scene::FlowBoundaryKind*>& face_kind() const { return face_kind_; }  ///< no_flow inside
+  const fv::View<FlowBoundaryKind*>& face_kind() const { return face_kind_; }  ///< no_flow inside
 
   /// The state of the scene at time 0 at the centres of the cells.
   Teuchos::RCP<algebra::Vector> initial() const;
@@ -46,15 +46,15 @@ class TwoPhaseOperator {
   fv::View<FaceFlux*> fluxes(const fv::View<PhaseState*>& states, const FlowStep& step) const;
 
  private:
-  void set_boundary(const scene::TwoPhaseScene& scene);
+  void set_boundary(const TwoPhaseScene& scene);
 
   fv::Grid grid_;
-  scene::TwoPhaseScene scene_;
+  TwoPhaseScene scene_;
   double seconds_per_unit_;
   TwoPhaseLaws laws_;
   algebra::MapPtr cells_, map_, column_map_;
   Teuchos::RCP<const algebra::Import> import_;
-  fv::View<scene::FlowBoundaryKind*> face_kind_;
+  fv::View<FlowBoundaryKind*> face_kind_;
 };
 
 }  // namespace thixis::flow

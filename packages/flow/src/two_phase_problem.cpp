@@ -165,7 +165,7 @@ TwoPhaseProblem::TwoPhaseProblem(const TwoPhaseOperator& flow, const FlowScales&
   const auto& kind = flow.face_kind();
   Kokkos::parallel_reduce(
       "thixis::flow::open", Cells(0, flow.grid().faces),
-      KOKKOS_LAMBDA(LocalIndex F, int& sum) { sum += kind(F) == scene::FlowBoundaryKind::state; }, faces);
+      KOKKOS_LAMBDA(LocalIndex F, int& sum) { sum += kind(F) == FlowBoundaryKind::state; }, faces);
   const auto volume = flow.grid().volume;
   Kokkos::parallel_reduce(
       "thixis::flow::volume", Cells(0, flow.grid().owned_cells), KOKKOS_LAMBDA(LocalIndex K, double& sum) { sum += volume(K); }, volume_);

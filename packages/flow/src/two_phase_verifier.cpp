@@ -46,12 +46,12 @@ struct TwoPhaseVerifier::Crossing {
 /// What the scene says of faces on the boundary: states behind them, masses that enter; by face, -1: nothing.
 struct TwoPhaseVerifier::Boundary {
   std::vector<int> of_face;
-  std::vector<scene::FlowBoundaryKind> kind;
+  std::vector<FlowBoundaryKind> kind;
   std::vector<State> outside;
   std::vector<std::array<double, 2>> entering;  ///< [kg/(m^2 s)]
 };
 
-TwoPhaseVerifier::TwoPhaseVerifier(const fv::Grid& grid, scene::TwoPhaseScene scene, double seconds_per_unit, double P_ref)
+TwoPhaseVerifier::TwoPhaseVerifier(const fv::Grid& grid, TwoPhaseScene scene, double seconds_per_unit, double P_ref)
     : grid_(grid), on_host_(fv::on_host(grid)), scene_(std::move(scene)), seconds_per_unit_(seconds_per_unit), P_ref_(P_ref) {
   const auto& rock = scene_.medium;
   H_ = rock.henry * rock.molar_mass_hydrogen;
@@ -60,7 +60,7 @@ TwoPhaseVerifier::TwoPhaseVerifier(const fv::Grid& grid, scene::TwoPhaseScene sc
   const double span = 1 - rock.S_lr - rock.S_gr;
   P_at_line_ = capillary(rock.S_gr + rock.regularization * span);
   S_e_line_ = 1 - rock.regularization;
-  if (scene_.capillary_law != scene::CapillaryLaw::quadratic) return;
+  if (scene_.capillary_law != CapillaryLaw::quadratic) return;
   // value and slope of van Genuchten's law at s_g = 0.1
   const double s = 0.1, m = 1 - 1 / rock.n, S_e = 1 - (s - rock.S_gr) / span, P = capillary(s);
   const double slope = P / rock.n / (std::pow(S_e, -1 / m) - 1) * std::pow(S_e, -1 / m - 1) / m / span;
@@ -116,7 +116,7 @@ TwoPhaseVerifier::Boundary TwoPhaseVerifier::boundary(double begin, double end) 
   Boundary found;
   found.of_face.assign(grid_.faces, -1);
   for (const auto& [tag, part] : scene_.boundary) {
-    if (part.kind == scene::FlowBoundaryKind::no_flow) continue;
+    if (part.kind == FlowBoundaryKind::no_flow) continue;
     std::vector<std::array<double, 2>> places;
     const int first = static_cast<int>(found.kind.size());
     for (LocalIndex F = 0; F < grid_.faces; ++F) {
@@ -124,7 +124,7 @@ TwoPhaseVerifier::Boundary TwoPhaseVerifier::boundary(double begin, double end) 
       found.of_face[F] = first + static_cast<int>(places.size());
       places.push_back({on_host_.face_centre(F, 0), on_host_.face_centre(F, 1)});
     }
-    const bool held = part.kind == scene::FlowBoundaryKind::state;
+    const bool held = part.kind == FlowBoundaryKind::state;
     const auto s_g = at(held ? part.state.s_g : nullptr, places, end), P = at(held ? part.state.P : nullptr, places, end),
                chi = at(held ? part.state.chi : nullptr, places, end);
     const double middle = (begin + end) / 2;
@@ -147,7 +147,7 @@ std::vector<TwoPhaseVerifier::Crossing> TwoPhaseVerifier::crossings(const std::v
     if (const LocalIndex B = on_host_.face_cells(F, 1); B >= 0) {
       across[F] = crossing(A, cells[B], d, down);
     } else if (const int i = boundary.of_face[F]; i >= 0) {
-      if (boundary.kind[i] == scene::FlowBoundaryKind::state) across[F] = crossing(A, cell(boundary.outside[i]), d, down);
+      if (boundary.kind[i] == FlowBoundaryKind::state) across[F] = crossing(A, cell(boundary.outside[i]), d, down);
       else across[F] = {{-boundary.entering[i][water], -boundary.entering[i][hydrogen]}, {0, 0}, true};
     }
   }

@@ -2,8 +2,8 @@
 #include <array>
 #include <vector>
 
+#include "thixis/flow/scene.hpp"
 #include "thixis/fv/host.hpp"
-#include "thixis/scene/two_phase.hpp"
 #include "two_phase_findings.hpp"
 
 namespace thixis::flow {
@@ -18,7 +18,7 @@ class TwoPhaseVerifier {
   using Owed = std::array<double, 2>;
 
   /// `P_ref`: size of the pressures [Pa].
-  TwoPhaseVerifier(const fv::Grid& grid, scene::TwoPhaseScene scene, double seconds_per_unit, double P_ref);
+  TwoPhaseVerifier(const fv::Grid& grid, TwoPhaseScene scene, double seconds_per_unit, double P_ref);
 
   /// The step ]begin, end] (units of the deck). `before`, `after`: of all local cells, ghosts included; `owed`: of the owned cells, empty:
   /// nothing. Collective.
@@ -42,7 +42,7 @@ class TwoPhaseVerifier {
 
   const fv::Grid& grid_;
   fv::HostGrid on_host_;
-  scene::TwoPhaseScene scene_;
+  TwoPhaseScene scene_;
   double seconds_per_unit_, P_ref_;
   double H_, beta_l_, beta_g_;           ///< of the document
   double S_e_line_ = 1, P_at_line_ = 0;  ///< P_cp is a line from there to s_g = 0

@@ -130,6 +130,4 @@ std::unique_ptr<Space> make_space(const mesh::Mesh& mesh, const method::SpaceOpt
   return std::make_unique<Space>(mesh, options, std::move(structure), std::make_unique<HybridLayout>(basis));
 }
 
-method::Method hybrid() { return {"hho", make_space, diffusion, {}}; }
-
 }  // namespace thixis::hho

@@ -122,7 +122,7 @@ class Examination {
 
 }  // namespace
 
-void check_degrees(const scene::MembraneScene& scene, const Boundary& boundary, const mesh::Mesh& mesh, double t) {
+void check_degrees(const MembraneScene& scene, const Boundary& boundary, const mesh::Mesh& mesh, double t) {
   mesh.comm.together([&] {
     const Examination examine(mesh, scene.interface_level_set, t);
     const auto name = [&](const char* letter, int alpha) { return scene.count == 1 ? letter : letter + std::to_string(alpha + 1); };

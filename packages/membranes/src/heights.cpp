@@ -1,6 +1,7 @@
 #include "heights.hpp"
 
 #include "thixis/mesh/host.hpp"
+#include "thixis/scene/shifted.hpp"
 
 namespace thixis::membranes {
 namespace {
@@ -23,7 +24,7 @@ void take(const scene::Field& field, const mesh::HostMesh& host, const std::vect
 
 }  // namespace
 
-Heights heights_of(const scene::MembraneScene& scene, const mesh::Mesh& mesh, double t) {
+Heights heights_of(const MembraneScene& scene, const mesh::Mesh& mesh, double t) {
   const Boundary boundary = boundary_of(scene, mesh);
   const auto host = mesh::on_host(mesh);
   Heights heights;
@@ -47,6 +48,22 @@ Heights heights_of(const scene::MembraneScene& scene, const mesh::Mesh& mesh, do
     heights.high[alpha] = mesh.comm.max(heights.high[alpha]);
   }
   return heights;
+}
+
+MembraneScene counted_from(double origin, MembraneScene scene) {
+  const auto lower = [origin](scene::FieldPtr& height) { height = scene::shifted(height, -origin); };
+  const auto lower_held = [&](BoundaryCondition& condition) {
+    if (condition.kind == BoundaryKind::dirichlet)
+      for (scene::FieldPtr& value : condition.value) lower(value);
+  };
+  lower_held(scene.default_boundary);
+  for (auto& [tag, condition] : scene.boundary) lower_held(condition);
+  lower(scene.obstacle);
+  for (int alpha = 0; alpha < scene.count; ++alpha) {
+    lower(scene.initial[alpha]);
+    if (scene.exact) lower(scene.exact->u[alpha]);
+  }
+  return scene;
 }
 
 }  // namespace thixis::membranes

@@ -27,6 +27,10 @@ struct Heights {
 };
 
 /// At the vertices of the held boundary at time t. Where nothing is held, those of the initial values. Collective.
-Heights heights_of(const scene::MembraneScene& scene, const mesh::Mesh& mesh, double t);
+Heights heights_of(const MembraneScene& scene, const mesh::Mesh& mesh, double t);
+
+/// The same scene with all heights counted from `origin`: boundary data, obstacle, exact solution, initial values. Only differences of
+/// heights matter, and those of heights around 1e9 drown in round-off where one computes with the heights themselves.
+MembraneScene counted_from(double origin, MembraneScene scene);
 
 }  // namespace thixis::membranes

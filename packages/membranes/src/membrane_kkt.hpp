@@ -6,7 +6,7 @@ namespace thixis::membranes {
 
 /// A solution X with its membranes as functions.
 struct MembraneSolution {
-  const scene::MembraneScene& scene;
+  const MembraneScene& scene;
   const method::Space& space;
   const std::array<method::FormPtr, 2>& form;
   const MembraneProblem& problem;

@@ -7,21 +7,24 @@
 #include "membrane_problem.hpp"
 #include "thixis/bound/guaranteed_bound.hpp"
 #include "thixis/complementarity/active_set.hpp"
-#include "thixis/method/form.hpp"
+#include "thixis/method/method.hpp"
 #include "thixis/models/model.hpp"
 #include "thixis/output/checkpoint.hpp"
 #include "thixis/output/fields.hpp"
 
 namespace thixis::membranes {
 
+/// The name of a displacement: of a field, and in checkpoints.
+inline std::string displacement(int count, int alpha) { return count == 1 ? "u" : alpha == 0 ? "u1" : "u2"; }
+
 /// Membranes on one mesh: the space, the data at one time, the algebraic problem, and what is read of its X.
 class MembraneLevel {
  public:
   /// At time 0. The scene, whose heights are counted from `origin`, and the mesh must outlive it. Collective.
-  MembraneLevel(const scene::MembraneScene& scene, double origin, const method::Method& by, const method::MethodParams& method,
+  MembraneLevel(const MembraneScene& scene, double origin, const method::Method& by, const method::MethodParams& method,
                 const algebra::LinearParams& linear, const mesh::Mesh& mesh);
 
-  const scene::MembraneScene& scene() const { return scene_; }
+  const MembraneScene& scene() const { return scene_; }
   int count() const { return scene_.count; }
   const method::Space& space() const { return *space_; }
   const std::array<method::FormPtr, 2>& forms() const { return form_; }  ///< (mu_alpha grad u, grad v)
@@ -59,7 +62,7 @@ class MembraneLevel {
                                        const std::vector<std::string>& names) const;
 
   /// u_alpha, lambda, gap: what values_at gives for each point.
-  static std::vector<std::string> point_fields(const scene::MembraneScene& scene);
+  static std::vector<std::string> point_fields(const MembraneScene& scene);
   std::vector<double> values_at(const std::vector<models::Probe>& probes, const algebra::Vector& X) const;
   models::Contact contact(const algebra::Vector& X) const;
   models::Rounding rounding(const algebra::Vector& X) const;
@@ -81,7 +84,7 @@ class MembraneLevel {
   const algebra::Vector& areas() const;
   std::vector<double> share_of_upper_tension() const;
 
-  const scene::MembraneScene& scene_;
+  const MembraneScene& scene_;
   double origin_;  ///< of heights
   method::MethodParams method_;
   std::unique_ptr<method::Space> space_;

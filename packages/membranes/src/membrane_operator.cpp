@@ -25,13 +25,12 @@ Small only(int begin, int end) {
 }
 
 /// Matrices of tensions that are constants: one, times each of them; else one for each membrane.
-contact::BlockOperator block_operator(const scene::MembraneScene& scene, const method::Method& by,
-                                      const std::array<method::FormPtr, 2>& form, const method::MethodParams& method) {
+contact::BlockOperator block_operator(const MembraneScene& scene, const method::Method& by, const std::array<method::FormPtr, 2>& form) {
   const method::Space& space = form[0]->space();
   contact::BlockOperator S;
   S.fields = scene.count;
   auto cells = std::make_shared<contact::CellForms>(contact::CellForms{space.elements(), space.interior(), form[0]->symmetric(), {}});
-  const bool condensed = method.condensed() && space.interior() > 0;
+  const bool condensed = space.interior() > 0;
   const auto add = [&](const method::Form& a, const Small& weight) {
     S.matrix.push_back(method::assemble(a));
     S.weight.push_back(weight);
@@ -82,11 +81,11 @@ void MembraneOperator::apply(int alpha, const Vector& u, Vector& y, double c, do
   system.S.matrix[matrix_of(alpha)]->apply(u, y, Teuchos::NO_TRANS, c * factor(alpha), d);
 }
 
-MembraneOperator membrane_operator(const scene::MembraneScene& scene, const method::Method& by, const std::array<method::FormPtr, 2>& form,
-                                   const method::MethodParams& method, const method::Coefficients* lift, const Teuchos::RCP<Vector>* body) {
+MembraneOperator membrane_operator(const MembraneScene& scene, const method::Method& by, const std::array<method::FormPtr, 2>& form,
+                                   const method::Coefficients* lift, const Teuchos::RCP<Vector>* body) {
   MembraneOperator membranes;
   const method::Space& space = form[0]->space();
-  membranes.system.S = block_operator(scene, by, form, method);
+  membranes.system.S = block_operator(scene, by, form);
   membranes.system.load = Teuchos::rcp(new MultiVector(space.map(), scene.count));
   for (int alpha = 0; alpha < scene.count; ++alpha) {
     // what the Dirichlet data exert on the unknowns moves to the right

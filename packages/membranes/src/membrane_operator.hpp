@@ -4,8 +4,8 @@
 
 #include "thixis/algebra/tpetra.hpp"
 #include "thixis/contact/system.hpp"
-#include "thixis/method/form.hpp"
-#include "thixis/scene/membranes.hpp"
+#include "thixis/membranes/scene.hpp"
+#include "thixis/method/method.hpp"
 
 namespace thixis::membranes {
 
@@ -32,9 +32,8 @@ struct MembraneOperator {
 
 /// The operator of a scene, from the forms of the membranes on their space. `lift`, `body`: Dirichlet data and loads of each membrane.
 /// Collective.
-MembraneOperator membrane_operator(const scene::MembraneScene& scene, const method::Method& by, const std::array<method::FormPtr, 2>& form,
-                                   const method::MethodParams& method, const method::Coefficients* lift,
-                                   const Teuchos::RCP<algebra::Vector>* body);
+MembraneOperator membrane_operator(const MembraneScene& scene, const method::Method& by, const std::array<method::FormPtr, 2>& form,
+                                   const method::Coefficients* lift, const Teuchos::RCP<algebra::Vector>* body);
 
 /// The matrices of a scene in time, S_alpha + weight M with the mass M of the space; symbolic work is done once.
 class Inertia {

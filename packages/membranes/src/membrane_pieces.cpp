@@ -167,7 +167,7 @@ class Pieces {
 
 }  // namespace
 
-void check_pieces(const scene::MembraneScene& scene, const Boundary& boundary, const mesh::Mesh& mesh) {
+void check_pieces(const MembraneScene& scene, const Boundary& boundary, const mesh::Mesh& mesh) {
   const bool all_held = std::all_of(boundary.dirichlet.begin(), boundary.dirichlet.end(), [](bool held) { return held; });
   if (all_held) return;  // every piece has a boundary
   const Pieces pieces(boundary, mesh);

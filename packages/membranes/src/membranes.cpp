@@ -3,16 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "exact_gradient.hpp"
 #include "heights.hpp"
 #include "membrane_checks.hpp"
-#include "membrane_kkt.hpp"
-#include "membrane_level.hpp"
 #include "membrane_pieces.hpp"
+#include "membranes_on_mesh.hpp"
 #include "thixis/bound/guaranteed_bound.hpp"
 #include "thixis/bound/published_bound.hpp"
 #include "thixis/core/timer.hpp"
-#include "thixis/scene/heights.hpp"
+#include "thixis/scene/shifted.hpp"
 
 namespace thixis::membranes {
 namespace {
@@ -20,9 +18,9 @@ namespace {
 using algebra::Vector;
 using method::Coefficients;
 
-class MembraneDiscretization final : public models::Discretization {
+class MembraneDiscretization final : public MembranesOnMesh<models::Discretization> {
  public:
-  MembraneDiscretization(const scene::MembraneScene& scene, double origin, const method::Method& by, const method::MethodParams& method,
+  MembraneDiscretization(const MembraneScene& scene, double origin, const method::Method& by, const method::MethodParams& method,
                          const algebra::LinearParams& linear, const std::array<scene::FieldPtr, 3>& initial,
                          const mesh::Hierarchy& hierarchy, int level)
       : scene_(scene), initial_(initial), hierarchy_(hierarchy), level_(level) {
@@ -30,12 +28,7 @@ class MembraneDiscretization final : public models::Discretization {
     on_mesh_ = std::make_unique<MembraneLevel>(scene, origin, by, method, linear, hierarchy.levels[level]);
   }
 
-  complementarity::Problem& problem() override { return on_mesh_->problem(); }
-
-  models::Sizes sizes() const override {
-    const MembraneProblem& problem = on_mesh_->problem();
-    return {problem.unknowns(), problem.rows(), problem.nonzeros()};
-  }
+  int sweeps() const override { return on_mesh_->forms()[0]->symmetric() ? 10 : 0; }
 
   Teuchos::RCP<Vector> cold_start() const override {
     const auto X = on_mesh_->zero();
@@ -55,24 +48,12 @@ class MembraneDiscretization final : public models::Discretization {
     return X;
   }
 
-  std::vector<output::CheckpointBlock> save(const Vector& X) const override { return on_mesh_->save(X); }
-  Teuchos::RCP<Vector> restore(const output::StoredCheckpoint& stored) const override { return on_mesh_->restore(stored); }
+  models::State save(const Vector& X) const override { return {on_mesh_->save(X), {}}; }
+  Teuchos::RCP<Vector> restore(const output::StoredCheckpoint& stored) override { return on_mesh_->restore(stored); }
 
   std::optional<double> energy_error(const Vector& X) const override {
     if (!scene_.exact) return std::nullopt;
-    const Fields x = on_mesh_->fields(X);
-    double sum = 0;
-    for (int alpha = 0; alpha < scene_.count; ++alpha)
-      sum += method::energy_error(*on_mesh_->forms()[alpha], on_mesh_->membrane(x, alpha),
-                                  {method::Known{exact_gradient(*scene_.exact, alpha, space().mesh())}}, 0);
-    return std::sqrt(sum);
-  }
-
-  double energy_norm(const Vector& X) const override {
-    const Fields x = on_mesh_->fields(X);
-    double sum = 0;
-    for (int alpha = 0; alpha < scene_.count; ++alpha) sum += method::energy(*on_mesh_->forms()[alpha], on_mesh_->membrane(x, alpha));
-    return std::sqrt(sum);
+    return std::sqrt(squared_energy_error(*on_mesh_, at(X), 0));
   }
 
   complementarity::Estimate estimate(const Vector& X) override {
@@ -86,12 +67,7 @@ class MembraneDiscretization final : public models::Discretization {
 
   std::vector<std::string> doubts() const override { return bound_ ? bound_->doubts() : std::vector<std::string>(); }
 
-  models::CellEstimates cell_estimates() const override {
-    if (!bound_) return {};
-    const auto& parts = bound_->cells();
-    return models::cell_estimates(parts.discretization, parts.linearization, parts.algebraic);
-  }
-
+  models::CellEstimates cell_estimates() const override { return bound_ ? cells_of(bound_->cells()) : models::CellEstimates(); }
   std::size_t bytes_of_estimate() const override { return bound_ ? bound_->bytes() : 0; }
 
   std::optional<models::PublishedEstimate> published_estimate(const Vector& X, std::optional<double> friedrichs) override {
@@ -112,38 +88,20 @@ class MembraneDiscretization final : public models::Discretization {
                                       {"nonconformity_3", bound.nonconformity[2]}}};
   }
 
-  complementarity::KktData kkt_data(const Vector& X) const override {
-    MembraneSolution solution{scene_, space(), on_mesh_->forms(), on_mesh_->problem(), on_mesh_->body(), on_mesh_->fields(X)};
-    for (int alpha = 0; alpha < scene_.count; ++alpha) solution.u[alpha] = on_mesh_->membrane(solution.x, alpha);
-    return membranes::kkt_data(solution);
-  }
-
+  complementarity::KktData kkt_data(const Vector& X) const override { return membranes::kkt_data(solution(X)); }
   models::Rounding rounding(const Vector& X) const override { return on_mesh_->rounding(X); }
-  models::Contact contact(const Vector& X) const override { return on_mesh_->contact(X); }
-  std::vector<double> values_at(const std::vector<models::Probe>& probes, const Vector& X) const override {
-    return on_mesh_->values_at(probes, X);
-  }
-  output::Grid grid() const override { return space().display(); }
-
-  std::vector<output::FieldData> fields(const Vector& X, const complementarity::ActiveSet& active,
-                                        const std::vector<std::string>& names) const override {
-    return on_mesh_->shown(X, active, names);
-  }
 
  private:
-  const method::Space& space() const { return on_mesh_->space(); }
-
-  const scene::MembraneScene& scene_;
+  const MembraneScene& scene_;
   const std::array<scene::FieldPtr, 3>& initial_;
   const mesh::Hierarchy& hierarchy_;
   int level_;
-  std::unique_ptr<MembraneLevel> on_mesh_;
   std::unique_ptr<bound::GuaranteedBound> bound_;  ///< made when an estimate is first asked for
 };
 
 class Membranes final : public models::StationaryModel {
  public:
-  Membranes(scene::MembraneScene scene, method::Method by, method::MethodParams method, algebra::LinearParams linear,
+  Membranes(MembraneScene scene, method::Method by, method::MethodParams method, algebra::LinearParams linear,
             std::array<scene::FieldPtr, 3> initial)
       : scene_(std::move(scene)), by_(std::move(by)), method_(method), linear_(linear), initial_(std::move(initial)) {
     for (int field = 0; field < 3; ++field)
@@ -160,7 +118,7 @@ class Membranes final : public models::StationaryModel {
     check_held(scene_, boundary);
     check_functions(scene_, initial_, method_, mesh);
     check_pieces(scene_, boundary, mesh);
-    if (by_.check) by_.check(mesh, {boundary.dirichlet, scene_.interface_level_set, method_});
+    if (by_.check_mesh) by_.check_mesh(mesh, {boundary.dirichlet, scene_.interface_level_set, method_});
   }
   std::unique_ptr<models::Discretization> discretize(const mesh::Hierarchy& hierarchy, int level) const override {
     if (!counted_) count_from(heights_of(scene_, hierarchy.levels.front(), 0).origin());
@@ -172,15 +130,15 @@ class Membranes final : public models::StationaryModel {
   /// The functions with heights counted from `origin`, where the membranes are held.
   struct Counted {
     double origin;
-    scene::MembraneScene scene;
+    MembraneScene scene;
     std::array<scene::FieldPtr, 3> initial;
   };
   void count_from(double origin) const {
-    counted_ = Counted{origin, scene::counted_from(origin, scene_), initial_};
+    counted_ = Counted{origin, counted_from(origin, scene_), initial_};
     for (int alpha = 0; alpha < scene_.count; ++alpha) counted_->initial[alpha] = scene::shifted(initial_[alpha], -origin);
   }
 
-  scene::MembraneScene scene_;
+  MembraneScene scene_;
   mutable std::optional<Counted> counted_;  ///< since the first mesh
   method::Method by_;
   method::MethodParams method_;
@@ -190,7 +148,7 @@ class Membranes final : public models::StationaryModel {
 
 }  // namespace
 
-std::unique_ptr<models::StationaryModel> membranes(scene::MembraneScene scene, method::Method by, method::MethodParams method,
+std::unique_ptr<models::StationaryModel> membranes(MembraneScene scene, method::Method by, method::MethodParams method,
                                                    algebra::LinearParams linear, std::array<scene::FieldPtr, 3> initial) {
   return std::make_unique<Membranes>(std::move(scene), std::move(by), method, linear, std::move(initial));
 }

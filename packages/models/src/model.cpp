@@ -1,12 +1,9 @@
 #include "thixis/models/model.hpp"
 
-#include "thixis/models/evolution.hpp"
-
 namespace thixis::models {
 
 // The tables of virtual functions stand here, once.
-Discretization::~Discretization() = default;
-Evolution::~Evolution() = default;
+SceneOnMesh::~SceneOnMesh() = default;
 Model::~Model() = default;
 
 namespace {

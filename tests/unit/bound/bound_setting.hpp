@@ -98,9 +98,7 @@ class BoundSetting : public ::testing::TestWithParam<std::string> {
     params.degree = setting.degree;
     params.nodes = setting.nodes;
     const method::SpaceOptions options{c.held, nullptr, params};
-    const method::Method by = setting.name == MethodName::fem  ? fem::lagrange()
-                              : setting.name == MethodName::dg ? dg::interior_penalty()
-                                                               : hho::hybrid();
+    const method::Method& by = tests::method_of(setting.name);
     c.V = by.make_space(mesh, options);
     for (int alpha = 0; alpha < count; ++alpha) c.problem.form[alpha] = by.diffusion(*c.V, c.problem.tension[alpha]);
     c.lambda = std::make_unique<Vector>(c.V->points());
@@ -156,17 +154,17 @@ class BoundSetting : public ::testing::TestWithParam<std::string> {
 inline const std::vector<Setting>& settings() {
   static const std::vector<Setting> all = [] {
     std::vector<Setting> settings;
-    for (const auto name : {MethodName::fem, MethodName::dg, MethodName::hho})
+    for (const auto& name : tests::built({"fem", "dg", "hho"}))
       for (int p = 1; p <= 4; ++p) settings.push_back({name, p});
     if (core::Comm().size() > 1) return settings;
-    settings.push_back({MethodName::fem, 2, Nodes::bernstein});
-    settings.push_back({MethodName::fem, 3, Nodes::bernstein});
-    settings.push_back({MethodName::fem, 4, Nodes::equispaced});
+    settings.push_back({"fem", 2, Nodes::bernstein});
+    settings.push_back({"fem", 3, Nodes::bernstein});
+    settings.push_back({"fem", 4, Nodes::equispaced});
     return settings;
   }();
   return all;
 }
-inline std::string named(const Setting& setting) { return method::to_text(setting.name) + " P" + std::to_string(setting.degree); }
+inline std::string named(const Setting& setting) { return setting.name + " P" + std::to_string(setting.degree); }
 
 inline std::string underscored(const ::testing::TestParamInfo<std::string>& info) {
   std::string name = info.param;

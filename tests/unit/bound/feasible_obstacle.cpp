@@ -24,7 +24,7 @@ TEST(FeasibleObstacle, a_membrane_through_a_pyramid_is_lifted_on_it) {
   const auto levels = square(1);
   const auto& mesh = levels.finest();
   for (int p = 1; p <= 3; ++p) {
-    const auto V = make_space(mesh, {MethodName::fem, p}, scene::formula([](double x, double y) { return kinks(x, y); }));
+    const auto V = make_space(mesh, {"fem", p}, scene::formula([](double x, double y) { return kinks(x, y); }));
     const auto u1 = scene::formula([](double x, double y) { return 2.2 * x * (1 - x) * y * (1 - y); });
     const FeasiblePair s(
         *V, {1, {scene::constant(2), nullptr}, {everywhere(mesh, scene::constant(0)), {}}, scene::formula([](double x, double y) {
@@ -64,7 +64,7 @@ TEST(FeasibleObstacle, above_a_curved_one_nothing_is_done_and_the_contact_term_s
   const auto levels = square(2);
   const auto& mesh = levels.finest();
   for (int p = 1; p <= 4; ++p) {
-    const auto V = make_space(mesh, {MethodName::fem, p});
+    const auto V = make_space(mesh, {"fem", p});
     const auto psi = scene::formula([](double x, double y) { return -1 + std::sin(3 * x) * std::sin(2 * y); });
     const FeasiblePair s(*V, {1, {scene::constant(1), nullptr}, {everywhere(mesh, scene::constant(1)), {}}, psi});
     FeasiblePair::Parts parts;
@@ -78,7 +78,7 @@ TEST(FeasibleObstacle, above_a_curved_one_nothing_is_done_and_the_contact_term_s
 TEST(FeasibleObstacle, a_flat_one_is_treated_like_a_membrane) {
   const auto levels = square(1);
   const auto& mesh = levels.finest();
-  const auto V = make_space(mesh, {MethodName::fem, 3});
+  const auto V = make_space(mesh, {"fem", 3});
   const auto u1 = scene::formula([](double x, double y) { return 0.1 - std::sin(3 * x) * y * (1 - y); });
   const Coefficients u[2] = {interpolated(*V, u1, scene::constant(0.1)), interpolated(*V, scene::constant(0))};
   FeasiblePair::Parts over, held;

@@ -4,11 +4,9 @@
 #include <cmath>
 #include <memory>
 
+#include "methods.hpp"
 #include "thixis/algebra/tpetra.hpp"
 #include "thixis/bound/feasible.hpp"
-#include "thixis/dg/space.hpp"
-#include "thixis/fem/lagrange_space.hpp"
-#include "thixis/hho/space.hpp"
 #include "thixis/mesh/build.hpp"
 #include "thixis/mesh/geometry.hpp"
 #include "thixis/mesh/host.hpp"
@@ -19,7 +17,6 @@
 namespace thixis::bound {
 
 using method::Coefficients;
-using method::MethodName;
 using method::Nodes;
 using method::Space;
 using scene::FieldPtr;
@@ -32,7 +29,7 @@ inline mesh::Hierarchy square(int refinements) {
 }
 
 struct Setting {
-  MethodName name;
+  std::string name;
   int degree;
   Nodes nodes = Nodes::gauss_lobatto;
 };
@@ -43,10 +40,7 @@ inline std::unique_ptr<Space> make_space(const mesh::Mesh& mesh, const Setting& 
   params.degree = setting.degree;
   params.nodes = setting.nodes;
   const method::SpaceOptions options{std::vector<bool>(mesh.tags.size(), true), level_set, params};
-  auto space = setting.name == MethodName::fem  ? fem::make_lagrange_space(mesh, options)
-               : setting.name == MethodName::dg ? dg::make_space(mesh, options)
-                                                : hho::make_space(mesh, options);
-  return space;
+  return tests::method_of(setting.name).make_space(mesh, options);
 }
 
 inline method::BoundaryValues everywhere(const mesh::Mesh& mesh, const FieldPtr& dirichlet) {

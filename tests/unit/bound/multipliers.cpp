@@ -55,8 +55,8 @@ void expect_reproduced(const mesh::Mesh& mesh, const Setting& setting, const std
 TEST(PatchwiseMultiplier, reproduces_polynomials_of_degree_p_less_1_up_to_the_held_boundary) {
   for (const Nodes family : {Nodes::gauss_lobatto, Nodes::bernstein})
     for (int p = 1; p <= 4; ++p) {
-      expect_reproduced(square(0).finest(), {MethodName::fem, p, family}, "square");
-      expect_reproduced(diagonals().finest(), {MethodName::fem, p, family}, "corners of one cell");
+      expect_reproduced(square(0).finest(), {"fem", p, family}, "square");
+      expect_reproduced(diagonals().finest(), {"fem", p, family}, "corners of one cell");
     }
 }
 
@@ -65,11 +65,10 @@ namespace {
 /// dG with strong data, where functions of the boundary are held.
 std::unique_ptr<Space> strong(const mesh::Mesh& mesh, int p) {
   method::MethodParams params;
-  params.name = MethodName::dg;
+  params.name = "dg";
   params.degree = p;
-  params.boundary = method::BoundaryTreatment::strong;
-  auto space = dg::make_space(mesh, {std::vector<bool>(mesh.tags.size(), true), nullptr, params});
-  return space;
+  params = tests::with(params, {{"boundary", "strong"}});
+  return tests::method_of("dg").make_space(mesh, {std::vector<bool>(mesh.tags.size(), true), nullptr, params});
 }
 
 /// (lambda, psi_l)_K at the entries of a broken space.
@@ -98,6 +97,7 @@ View<double*> moments_by_entry(const Space& V, const FieldPtr& lambda) {
 }  // namespace
 
 TEST(HeldMoments, are_those_of_a_polynomial_of_degree_p_less_1) {
+  SKIP_UNLESS_BUILT("dg");
   const auto levels = square(0);
   const auto& mesh = levels.finest();
   for (int p = 2; p <= 4; ++p) {
@@ -120,6 +120,7 @@ TEST(HeldMoments, are_those_of_a_polynomial_of_degree_p_less_1) {
 }
 
 TEST(HeldMoments, leave_every_cell_a_mean_that_is_not_negative) {
+  SKIP_UNLESS_BUILT("dg");
   const auto levels = diagonals();
   const auto& mesh = levels.finest();
   std::mt19937 engine(3);

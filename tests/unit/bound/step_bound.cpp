@@ -43,7 +43,7 @@ TEST_P(StepOfBound, has_fluxes_in_equilibrium_with_the_rate_of_change) {
     int count;
   };
   for (const auto& setting : settings()) {
-    if (setting.name == MethodName::dg) continue;
+    if (setting.name == "dg") continue;
     for (const auto& [varying, neumann, count] : {Data{false, false, 2}, Data{true, true, 2}, Data{false, true, 1}}) {
       auto c = arbitrary(setting, varying, neumann, count), before = arbitrary(setting, varying, neumann, count);
       move(before, 0.1);
@@ -70,7 +70,7 @@ TEST_P(StepOfBound, has_fluxes_in_equilibrium_with_the_rate_of_change) {
 /// Away from the obstacle and without a multiplier s_N is u_h for continuous elements, and what is balanced is f - (u - u_before)/tau.
 TEST_P(StepOfBound, takes_the_rate_of_change_from_the_force) {
   for (const auto& setting : settings()) {
-    if (setting.name != MethodName::fem) continue;
+    if (setting.name != "fem") continue;
     auto c = arbitrary(setting, false, false, 1, -10), before = arbitrary(setting, false, false, 1, -10);
     move(before, 0.1);
     in_time(c, before);
@@ -105,7 +105,7 @@ TEST_P(StepOfBound, takes_the_rate_of_change_from_the_force) {
 /// Where nothing changes over a step the bound is that without time, times the root of the step.
 TEST_P(StepOfBound, is_the_stationary_bound_where_nothing_changes) {
   for (const auto& setting : settings()) {
-    if (setting.name == MethodName::dg) continue;
+    if (setting.name == "dg") continue;
     const auto c = arbitrary(setting, false, true, 2);
     GuaranteedBound stationary(*c.V, c.problem, levels, level);
     StepBound bound(*c.V, c.problem, levels, level);
@@ -119,7 +119,7 @@ TEST_P(StepOfBound, is_the_stationary_bound_where_nothing_changes) {
 /// Data that do not belong together are not balanced: a residual without the rate of change.
 TEST_P(StepOfBound, does_not_balance_the_residual_of_another_step) {
   for (const auto& setting : settings()) {
-    if (setting.name == MethodName::dg) continue;
+    if (setting.name == "dg") continue;
     auto c = arbitrary(setting, false, false, 2), before = arbitrary(setting, false, false, 2);
     move(before, 0.1);
     StepBound bound(*c.V, c.problem, levels, level);

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "../method/native_flux.hpp"
+#include "thixis/dg/params.hpp"
 #include "thixis/dg/space.hpp"
 #include "thixis/mesh/build.hpp"
 
@@ -9,12 +10,10 @@ namespace thixis::dg {
 namespace {
 
 using mesh::Generator;
-using method::BoundaryTreatment;
 using method::FluxProblem;
 using method::Held;
 using method::Space;
 using method::Tension;
-using method::Variant;
 
 struct Setting {
   Generator generator;
@@ -36,12 +35,12 @@ mesh::Hierarchy hierarchy(Generator generator, int refinements) {
 
 method::MethodParams params(const Setting& setting) {
   method::MethodParams params;
-  params.name = method::MethodName::dg;
+  params.name = "dg";
   params.degree = setting.degree;
-  params.variant = setting.variant;
-  params.boundary = setting.boundary;
+  params.own.get<Params>().variant = setting.variant;
+  params.own.get<Params>().boundary = setting.boundary;
   params.nodes = setting.nodes;
-  params.penalty = 20;
+  params.own.get<Params>().penalty = 20;
   return params;
 }
 

@@ -8,6 +8,7 @@
 
 #include "thixis/algebra/solver.hpp"
 #include "thixis/algebra/tpetra.hpp"
+#include "thixis/dg/params.hpp"
 #include "thixis/mesh/adapt.hpp"
 #include "thixis/mesh/build.hpp"
 #include "thixis/mesh/geometry.hpp"
@@ -19,9 +20,7 @@ namespace {
 
 using algebra::Vector;
 using mesh::Generator;
-using method::BoundaryTreatment;
 using method::BoundaryValues;
-using method::Variant;
 using scene::FieldPtr;
 
 struct Setting {
@@ -103,10 +102,10 @@ class InteriorPenalty : public ::testing::TestWithParam<Setting> {
  protected:
   std::unique_ptr<method::Space> space(const mesh::Mesh& m, bool held = true) const {
     method::MethodParams params;
-    params.name = method::MethodName::dg;
+    params.name = "dg";
     params.degree = GetParam().degree;
-    params.variant = GetParam().variant;
-    params.boundary = GetParam().boundary;
+    params.own.get<Params>().variant = GetParam().variant;
+    params.own.get<Params>().boundary = GetParam().boundary;
     params.nodes = GetParam().nodes;
     return make_space(m, {std::vector<bool>(m.tags.size(), held), nullptr, params});
   }
@@ -141,8 +140,8 @@ TEST_P(InteriorPenalty, patch_test_with_a_part_of_the_boundary_under_traction) {
   if (GetParam().generator != Generator::criss_cross) return;
   method::MethodParams params;
   params.degree = GetParam().degree;
-  params.variant = GetParam().variant;
-  params.boundary = GetParam().boundary;
+  params.own.get<Params>().variant = GetParam().variant;
+  params.own.get<Params>().boundary = GetParam().boundary;
   const auto right = std::find(mesh.tags.begin(), mesh.tags.end(), "right") - mesh.tags.begin();
   std::vector<bool> dirichlet(mesh.tags.size(), true);
   dirichlet[right] = false;
@@ -195,8 +194,8 @@ TEST_P(InteriorPenalty, nipg_is_coercive_for_any_penalty) {
   if (GetParam().variant == Variant::sipg || GetParam().boundary == BoundaryTreatment::strong) return;
   method::MethodParams params;
   params.degree = GetParam().degree;
-  params.variant = Variant::nipg;
-  params.penalty = 1e-6;
+  params.own.get<Params>().variant = Variant::nipg;
+  params.own.get<Params>().penalty = 1e-6;
   const auto V = make_space(mesh, {std::vector<bool>(mesh.tags.size(), true), nullptr, params});
   Vector y(V->map()), Sy(V->map());
   y.randomize();
@@ -376,8 +375,8 @@ class Penalty : public ::testing::TestWithParam<int> {
   bool definite(const mesh::Mesh& mesh, Variant variant, double penalty) const {
     method::MethodParams params;
     params.degree = GetParam();
-    params.variant = variant;
-    params.penalty = penalty;
+    params.own.get<Params>().variant = variant;
+    params.own.get<Params>().penalty = penalty;
     const auto V = make_space(mesh, {std::vector<bool>(mesh.tags.size(), true), nullptr, params});
     return positive_definite(entries(*V, scene::constant(1)));
   }
@@ -390,7 +389,7 @@ TEST_P(Penalty, that_the_shape_of_the_cells_asks_for_makes_sipg_positive_definit
       const double enough = sufficient_penalty(mesh, GetParam());
       EXPECT_TRUE(definite(mesh, Variant::sipg, 1.001 * enough));
       EXPECT_FALSE(definite(mesh, Variant::sipg, 0.1 * enough));
-      EXPECT_EQ(enough < method::MethodParams().penalty, !flat);
+      EXPECT_EQ(enough < Params().penalty, !flat);
     }
 }
 
@@ -411,7 +410,7 @@ TEST(Poisson, converges_with_order_p) {
         const mesh::Mesh& mesh = levels.levels[2 + k];
         method::MethodParams params;
         params.degree = p;
-        params.variant = variant;
+        params.own.get<Params>().variant = variant;
         const auto V = make_space(mesh, {std::vector<bool>(mesh.tags.size(), true), nullptr, params});
         const auto zero = everywhere(mesh, scene::constant(0));
         Vector F(V->map());

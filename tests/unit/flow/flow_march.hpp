@@ -1,7 +1,7 @@
 #pragma once
 #include "thixis/algebra/tpetra.hpp"
 #include "thixis/complementarity/newton.hpp"
-#include "thixis/scene/membranes.hpp"
+#include "thixis/flow/scene.hpp"
 #include "two_phase_bound.hpp"
 #include "two_phase_predictor.hpp"
 
@@ -18,11 +18,11 @@ inline fv::Grid interval(int cells, double length, const core::Comm& comm) {
   return fv::build(params, comm, ".");
 }
 
-inline scene::TwoPhaseScene catalogued(const std::string& name) {
-  scene::SceneParams params;
-  params.model = scene::Model::two_phase;
+inline TwoPhaseScene catalogued(const std::string& name) {
+  models::SceneParams params;
+  params.model = "two-phase";
   params.case_name = name;
-  return scene::two_phase_scene(params);
+  return two_phase_scene(params);
 }
 
 /// A flow with its problem and its estimate, step by step without a driver.
@@ -40,7 +40,7 @@ struct Flow {
   Teuchos::RCP<algebra::Vector> X_before;
   complementarity::Estimate eta;
 
-  Flow(const fv::Grid& grid, const scene::TwoPhaseScene& scene, const TwoPhaseBoundParams& params = {}, double unit = year,
+  Flow(const fv::Grid& grid, const TwoPhaseScene& scene, const TwoPhaseBoundParams& params = {}, double unit = year,
        const algebra::LinearParams& linear = {})
       : flow(grid, scene, unit),
         scales(flow.laws(), 1e6),

@@ -9,7 +9,7 @@
 #include <random>
 
 #include "thixis/complementarity/newton.hpp"
-#include "thixis/scene/membranes.hpp"
+#include "thixis/flow/scene.hpp"
 #include "two_phase_increments.hpp"
 #include "two_phase_problem.hpp"
 
@@ -26,14 +26,14 @@ const Json& vectors() {
   return all;
 }
 
-scene::TwoPhaseScene catalogued(const std::string& name) {
-  scene::SceneParams params;
-  params.model = scene::Model::two_phase;
+TwoPhaseScene catalogued(const std::string& name) {
+  models::SceneParams params;
+  params.model = "two-phase";
   params.case_name = name;
-  return scene::two_phase_scene(params);
+  return two_phase_scene(params);
 }
 
-std::unique_ptr<models::UnsteadyModel> made(const scene::TwoPhaseScene& scene) {
+std::unique_ptr<models::UnsteadyModel> made(const TwoPhaseScene& scene) {
   return two_phase(scene, algebra::LinearParams{}, year, TwoPhaseBoundParams{});
 }
 
@@ -96,7 +96,7 @@ TEST(TwoPhaseLaws, the_quadratic_law_meets_the_other_one_with_its_slope) {
 
 /// Gas up to S_gr does not move, but has a pressure that rises: the matrix of a step needs its slope.
 TEST(TwoPhaseLaws, rise_from_zero_below_the_residual_saturation_of_the_gas) {
-  scene::TwoPhaseScene scene = catalogued("gas injection");
+  TwoPhaseScene scene = catalogued("gas injection");
   scene.medium.S_gr = 0.2;
   const TwoPhaseLaws laws = two_phase_laws(scene);
   const double end = 0.2 + laws.eps * laws.width;
@@ -110,7 +110,7 @@ TEST(TwoPhaseLaws, rise_from_zero_below_the_residual_saturation_of_the_gas) {
     before = laws.capillary(s_g).value;
   }
   scene.medium.S_gr = 0.0999;
-  scene.capillary_law = scene::CapillaryLaw::quadratic;
+  scene.capillary_law = CapillaryLaw::quadratic;
   EXPECT_THROW(two_phase_laws(scene), core::InputError);
 }
 
@@ -131,7 +131,7 @@ TEST(TwoPhaseLaws, are_finite_and_continuous_far_outside) {
 
 /// Central differences of the fluxes, sixth order, in both states, with gravity; at states between gas and no gas, away from kinks.
 TEST(TwoPhaseLaws, fluxes_have_the_derivatives_they_claim) {
-  scene::TwoPhaseScene scene = catalogued("gas injection");
+  TwoPhaseScene scene = catalogued("gas injection");
   const TwoPhaseLaws laws = two_phase_laws(scene);
   std::mt19937 random(3);
   std::uniform_real_distribution<double> unit(0, 1);
@@ -174,7 +174,7 @@ struct Step {
   Teuchos::RCP<Vector> X;
   TwoPhaseProblem problem;
 
-  Step(const mesh::MeshParams& mesh, const scene::TwoPhaseScene& scene, double years)
+  Step(const mesh::MeshParams& mesh, const TwoPhaseScene& scene, double years)
       : flow(fv::build(mesh, core::Comm(), ""), scene, year),
         X(flow.initial()),
         problem(flow, FlowScales(flow.laws(), 1e6), algebra::LinearParams{}, X) {
@@ -264,7 +264,7 @@ TEST(TwoPhaseEvolution, with_fischer_burmeister_is_the_run_of_the_independent_pr
 
 /// Water under its weight and nothing else: the fluxes vanish up to rounding, in the slab and in the column.
 TEST(TwoPhaseProblem, water_at_rest_stays_at_rest) {
-  scene::TwoPhaseScene scene = catalogued("gas injection 2d");
+  TwoPhaseScene scene = catalogued("gas injection 2d");
   scene.boundary.erase("left");
   Step step(tensor(8, 6, 200, 20), scene, 5000);
   Vector R(step.flow.map());
@@ -343,7 +343,7 @@ TEST(TwoPhaseEvolution, owes_what_a_step_leaves) {
 }
 
 TEST(TwoPhaseIncrements, of_saturation_end_behind_the_next_corner) {
-  scene::TwoPhaseScene scene = catalogued("gas injection");
+  TwoPhaseScene scene = catalogued("gas injection");
   scene.medium.S_gr = 0.02;
   const TwoPhaseLaws trapped = two_phase_laws(scene);
   const double low = 0.02, high = low + trapped.eps * trapped.width, past = 1e-2 * (high - low);
@@ -413,7 +413,7 @@ TEST(TwoPhaseIncrements, that_a_residual_stands_for_have_the_units_of_unknowns) 
 }
 
 TEST(TwoPhaseEvolution, refuses_parts_of_the_boundary_and_probes_that_are_not_there) {
-  scene::TwoPhaseScene scene = catalogued("gas injection");
+  TwoPhaseScene scene = catalogued("gas injection");
   scene.boundary["lid"];
   EXPECT_THROW(made(scene)->evolve(interval(4, 200), core::Comm(), "", {}), core::InputError);
   EXPECT_THROW(made(catalogued("gas injection"))->evolve(interval(4, 200), core::Comm(), "", {{}, {}, {{"output/probes", {250, 0}}}}),

@@ -132,8 +132,8 @@ TEST(two_phase_bound, is_the_dual_norm_of_the_residual_on_an_interval) {
 
 TEST(two_phase_bound, does_not_depend_on_the_unit_of_time) {
   // Everything that has the unit of time in it, in seconds.
-  scene::TwoPhaseScene in_seconds = catalogued("gas injection short");
-  const scene::TwoPhaseScene in_years = in_seconds;
+  TwoPhaseScene in_seconds = catalogued("gas injection short");
+  const TwoPhaseScene in_years = in_seconds;
   in_seconds.boundary["left"].hydrogen = scene::constant(5.57e-6 / year);
   const core::Comm comm;
   Flow years(interval(60, length, comm), in_years), seconds(interval(60, length, comm), in_seconds, {}, 1);
@@ -219,11 +219,11 @@ TEST(two_phase_bound, lights_up_at_the_front) {
 }
 
 /// Hydrogen that stays dissolved and water that is pressed through: both parts of order 1.
-scene::TwoPhaseScene smooth_flow() {
-  scene::TwoPhaseScene scene = catalogued("gas injection");
+TwoPhaseScene smooth_flow() {
+  TwoPhaseScene scene = catalogued("gas injection");
   const double pi = std::acos(-1.0);
   scene.initial.chi = scene::formula([=](double x, double) { return 2e-5 * (1 - std::cos(pi * x / 100)); });
-  scene.boundary["left"].kind = scene::FlowBoundaryKind::state;
+  scene.boundary["left"].kind = FlowBoundaryKind::state;
   scene.boundary["left"].state = {scene::constant(0), scene::constant(1.4e6), scene::constant(0)};
   return scene;
 }
@@ -260,7 +260,7 @@ TEST(two_phase_bound, error_in_time_is_of_order_one) {
 
 /// At rest under gravity nothing is wrong.
 TEST(two_phase_bound, vanishes_at_hydrostatic_rest) {
-  scene::TwoPhaseScene scene = catalogued("gas injection 2d");
+  TwoPhaseScene scene = catalogued("gas injection 2d");
   scene.boundary.erase("left");
   mesh::MeshParams params;
   params.generator = mesh::Generator::tensor;

@@ -3,6 +3,7 @@
 
 #include "../method/native_flux.hpp"
 #include "problems.hpp"
+#include "thixis/hho/params.hpp"
 
 namespace thixis::hho {
 namespace {
@@ -37,7 +38,7 @@ TEST_P(HybridFlux, balances_the_forces_of_every_cell_whatever_the_field_is) {
   for (const auto tension : {Tension::constant, Tension::smooth, Tension::jump})
     for (const auto held : {Held::all, Held::none, Held::alternating})
       for (const double sign : {1.0, -1.0}) {
-        deck.stabilization_length = sign > 0 ? method::StabilizationLength::face : method::StabilizationLength::cell;
+        deck.own.get<Params>().stabilization_length = sign > 0 ? StabilizationLength::face : StabilizationLength::cell;
         const auto dirichlet = method::held_tags(mesh, held);
         const auto s = spaces(mesh, deck, dirichlet, tension);
         const FluxProblem problem{s.V, s.V_free, diffusion, method::tension_of(tension), wave, method::boundary_of(dirichlet, wave, wave),

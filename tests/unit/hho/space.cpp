@@ -10,6 +10,7 @@
 #include "thixis/algebra/solver.hpp"
 #include "thixis/algebra/tpetra.hpp"
 #include "thixis/contact/condensation.hpp"
+#include "thixis/hho/params.hpp"
 #include "thixis/mesh/adapt.hpp"
 #include "thixis/mesh/geometry.hpp"
 #include "thixis/mesh/host.hpp"
@@ -132,9 +133,9 @@ TEST_P(Hybrid, stiffness_is_symmetric_and_constants_are_its_kernel_where_nothing
 }
 
 TEST_P(Hybrid, patch_test) {
-  for (const auto length : {method::StabilizationLength::face, method::StabilizationLength::cell}) {
+  for (const auto length : {StabilizationLength::face, StabilizationLength::cell}) {
     auto params = method();
-    params.stabilization_length = length;
+    params.own.get<Params>().stabilization_length = length;
     const auto V = space(mesh, params, true);
     const Poisson poisson{*V, scene::constant(3), scene::formula([this](double x, double y) { return 3 * u.minus_laplacian(x, y); }),
                           everywhere(mesh, u.value())};
@@ -306,13 +307,13 @@ TEST(Convergence, of_the_cells_polynomials_has_order_p) {
                                   scene::formula([pi](double x, double y) { return pi * std::sin(pi * x) * std::cos(pi * y); })};
   const auto f = scene::formula([pi](double x, double y) { return 2 * pi * pi * std::sin(pi * x) * std::sin(pi * y); });
   const auto levels = hierarchy(Generator::criss_cross, 3);
-  for (const auto length : {method::StabilizationLength::face, method::StabilizationLength::cell})
+  for (const auto length : {StabilizationLength::face, StabilizationLength::cell})
     for (int p = 1; p <= 4; ++p) {
       double error[2];
       for (int k = 0; k < 2; ++k) {
         const mesh::Mesh& mesh = levels.levels[2 + k];
         auto of_method = params(p);
-        of_method.stabilization_length = length;
+        of_method.own.get<Params>().stabilization_length = length;
         const auto V = space(mesh, of_method, true);
         const Poisson poisson{*V, scene::constant(1), f, everywhere(mesh, scene::constant(0))};
         error[k] = poisson.error(poisson.condensed_solution(), exact);

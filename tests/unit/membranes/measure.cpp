@@ -29,7 +29,7 @@ class Measure : public ::testing::Test {
 
   /// Membranes held at heights g, or one of them over an obstacle.
   MembraneOperator membranes(std::array<double, 2> mu, std::array<FieldPtr, 2> f, const FieldPtr& g, const FieldPtr& psi = nullptr) const {
-    scene::MembraneScene scene;
+    MembraneScene scene;
     scene.count = psi ? 1 : 2;
     scene.obstacle = psi;
     const method::BoundaryValues held = {std::vector<FieldPtr>(mesh().tags.size(), g), std::vector<FieldPtr>(mesh().tags.size())};
@@ -44,7 +44,7 @@ class Measure : public ::testing::Test {
       form[alpha] = fem::diffusion(*space_, scene.tension[alpha]);
       method::load(*form[alpha], *f[alpha], held, 0, *body[alpha]);
     }
-    return membrane_operator(scene, fem::lagrange(), form, {}, lift, body);
+    return membrane_operator(scene, fem::entry(), form, lift, body);
   }
   /// All membranes at one height.
   MultiVector at(const MembraneOperator& membranes, double height) const {
@@ -160,11 +160,11 @@ TEST_F(Measure, an_obstacle_counts_by_what_it_can_exert_and_only_within_reach) {
 namespace {
 
 Heights heights_on(const mesh::Mesh& mesh, const char* g1, const char* g2) {
-  scene::SceneParams params;
+  models::SceneParams params{model::two, {}, {}};
   params.data.emplace();
   params.data->g1.text = g1;
   params.data->g2.text = g2;
-  return heights_of(scene::membrane_scene(params), mesh, 0);
+  return heights_of(membrane_scene(params), mesh, 0);
 }
 
 }  // namespace

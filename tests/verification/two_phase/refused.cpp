@@ -13,16 +13,16 @@ constexpr double year = 31557600;
 
 /// Wet rock of 20 m whose right end is held, what is drawn or brought on the left [kg/(m^3 year)], and a run of steps of 1000 years.
 struct Rock {
-  scene::TwoPhaseScene scene;
+  flow::TwoPhaseScene scene;
   RunParams params;
 
   Rock() {
-    scene::SceneParams given;
-    given.model = scene::Model::two_phase;
-    given.flow.emplace();
-    scene = scene::two_phase_scene(given);
+    models::SceneParams given;
+    given.model = "two-phase";
+    flow::of(given).flow.emplace();
+    scene = flow::two_phase_scene(given);
     auto& right = scene.boundary["right"];
-    right.kind = scene::FlowBoundaryKind::state;
+    right.kind = flow::FlowBoundaryKind::state;
     right.state = scene.initial;
     params.mesh.generator = mesh::Generator::interval;
     params.mesh.lower = {0};

@@ -19,7 +19,4 @@ double sufficient_penalty(const mesh::Mesh& mesh, const method::SpaceOptions& op
 /// Throws InputError where SIPG has a penalty below that: it may then have wrong solutions. Collective.
 void check_mesh(const mesh::Mesh& mesh, const method::SpaceOptions& options);
 
-/// The method as scenes see it.
-method::Method interior_penalty();
-
 }  // namespace thixis::dg

@@ -7,7 +7,4 @@ namespace thixis::fem {
 /// nodal multiplier, lumped mass as pairing; p >= 2: moments. The mesh must outlive the space. Collective.
 std::unique_ptr<method::Space> make_lagrange_space(const mesh::Mesh& mesh, const method::SpaceOptions& options);
 
-/// The method as scenes see it.
-method::Method lagrange();
-
 }  // namespace thixis::fem

@@ -3,8 +3,8 @@
 
 #include "thixis/algebra/solver.hpp"
 #include "thixis/complementarity/parameters.hpp"
+#include "thixis/flow/scene.hpp"
 #include "thixis/models/evolution.hpp"
-#include "thixis/scene/two_phase.hpp"
 
 namespace thixis::flow {
 
@@ -19,7 +19,7 @@ struct TwoPhaseBoundParams {
 /// Two-phase flow of water and hydrogen by cell-centred finite volumes and backward Euler (docs/methods/two_phase.md).
 ///
 /// `seconds_per_unit`: of the unit of time of the deck. Without probes series.csv shows the cell at the left end, the lowest one there.
-std::unique_ptr<models::UnsteadyModel> two_phase(scene::TwoPhaseScene scene, algebra::LinearParams linear, double seconds_per_unit,
+std::unique_ptr<models::UnsteadyModel> two_phase(TwoPhaseScene scene, algebra::LinearParams linear, double seconds_per_unit,
                                                  const TwoPhaseBoundParams& bound = {});
 
 }  // namespace thixis::flow

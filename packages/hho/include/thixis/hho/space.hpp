@@ -12,7 +12,4 @@ std::unique_ptr<method::Space> make_space(const mesh::Mesh& mesh, const method::
 /// it.
 method::FormPtr diffusion(const method::Space& space, const scene::FieldPtr& tension);
 
-/// The method as scenes see it.
-method::Method hybrid();
-
 }  // namespace thixis::hho

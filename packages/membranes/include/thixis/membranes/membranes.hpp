@@ -3,9 +3,9 @@
 
 #include "thixis/algebra/solver.hpp"
 #include "thixis/complementarity/newton.hpp"
-#include "thixis/method/form.hpp"
+#include "thixis/membranes/scene.hpp"
+#include "thixis/method/method.hpp"
 #include "thixis/models/model.hpp"
-#include "thixis/scene/membranes.hpp"
 
 namespace thixis::membranes {
 
@@ -14,9 +14,9 @@ namespace thixis::membranes {
 ///     -div(mu1 grad u1) - lambda = f1,   -div(mu2 grad u2) + lambda = f2,   u1 - u2 >= 0, lambda >= 0, (u1 - u2) lambda = 0;
 ///     -div(mu grad u) - lambda = f,                                         u - psi >= 0, lambda >= 0, (u - psi) lambda = 0.
 ///
-/// `initial`: expressions of the deck for the cold start, u_1 (or u), u_2, lambda (null: those of
+/// `by`: the method. `initial`: expressions of the deck for the cold start, u_1 (or u), u_2, lambda (null: those of
 /// the scene, else zero).
-std::unique_ptr<models::StationaryModel> membranes(scene::MembraneScene scene, method::Method by, method::MethodParams method,
+std::unique_ptr<models::StationaryModel> membranes(MembraneScene scene, method::Method by, method::MethodParams method,
                                                    algebra::LinearParams linear, std::array<scene::FieldPtr, 3> initial);
 
 }  // namespace thixis::membranes

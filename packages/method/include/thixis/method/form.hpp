@@ -98,12 +98,4 @@ FormPtr mass(const Space& space);
 std::shared_ptr<const ElementForm> with_mass(const Space& space, const std::shared_ptr<const ElementForm>& form, double factor,
                                              double weight);
 
-/// A method, as scenes see it.
-struct Method {
-  std::string name;  ///< as in the deck
-  SpaceFactory make_space;
-  std::function<FormPtr(const Space&, const scene::FieldPtr& tension)> diffusion;  ///< (mu grad u, grad v)
-  MeshCheck check;                                                                 ///< may be empty
-};
-
 }  // namespace thixis::method

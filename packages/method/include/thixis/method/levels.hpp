@@ -1,7 +1,7 @@
 #pragma once
 #include <map>
 
-#include "thixis/method/form.hpp"
+#include "thixis/method/method.hpp"
 #include "thixis/method/transfer.hpp"
 
 namespace thixis::method {

@@ -1,49 +1,18 @@
 #pragma once
 #include <Kokkos_Core.hpp>
-#include <algorithm>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
 
-#include "thixis/core/schema.hpp"
 #include "thixis/mesh/host.hpp"
 #include "thixis/method/graph.hpp"
 #include "thixis/method/layout.hpp"
+#include "thixis/method/params.hpp"
 #include "thixis/method/quadrature.hpp"
 #include "thixis/output/fields.hpp"
 
 namespace thixis::method {
-
-enum class MethodName { fem, dg, hho, fv };
-std::string to_text(MethodName name);  ///< as in the deck
-enum class Nodes { gauss_lobatto, equispaced, bernstein };
-
-/// dG: theta = 1 or -1 in A_h.
-enum class Variant { sipg, nipg };
-/// How dG takes Dirichlet data: by the forms on the boundary, or by fixed nodes.
-enum class BoundaryTreatment { weak, strong };
-/// What h is in the stabilization of HHO.
-enum class StabilizationLength { face, cell };
-
-/// Block `method` of the deck.
-struct MethodParams {
-  MethodName name = MethodName::fem;
-  int degree = 1;
-  Nodes nodes = Nodes::gauss_lobatto;
-  int quadrature_order = 0;  ///< 0: 2 degree + 4; never below 2 degree
-  Variant variant = Variant::sipg;
-  double penalty = 10;  ///< eta in eta p²/|F|
-  BoundaryTreatment boundary = BoundaryTreatment::weak;
-  std::optional<bool> condensation;  ///< not given: hho only
-  double stabilization = 10;         ///< kappa
-  StabilizationLength stabilization_length = StabilizationLength::face;
-  static const core::Schema<MethodParams>& schema();
-  int order() const { return quadrature_order > 0 ? std::max(quadrature_order, 2 * degree) : 2 * degree + 4; }
-  bool symmetric() const { return name != MethodName::dg || variant == Variant::sipg; }
-  /// Unknowns inside a cell are eliminated from the linear systems.
-  bool condensed() const { return condensation.value_or(name == MethodName::hho); }
-};
 
 /// The family of nodes that the deck asks for.
 reference::Family family(Nodes nodes);
