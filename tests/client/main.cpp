@@ -7,7 +7,6 @@
 #include "thixis/core/error.hpp"
 #include "thixis/drive/stationary.hpp"
 #include "thixis/fem/entry.hpp"
-#include "thixis/fem/lagrange_space.hpp"
 #include "thixis/membranes/family.hpp"
 #include "thixis/membranes/membranes.hpp"
 #include "thixis/mesh/build.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "text_file.hpp"
+#include "files/text_file.hpp"
 #include "thixis/core/error.hpp"
 
 namespace thixis::output {

@@ -5,7 +5,7 @@
 
 #include "registry.hpp"
 #include "thixis/algebra/tpetra.hpp"
-#include "thixis/fem/lagrange_space.hpp"
+#include "thixis/fem/entry.hpp"
 #include "thixis/membranes/membranes.hpp"
 #include "thixis/mesh/host.hpp"
 

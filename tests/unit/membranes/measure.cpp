@@ -5,6 +5,7 @@
 
 #include "heights.hpp"
 #include "membrane_measure.hpp"
+#include "thixis/fem/entry.hpp"
 #include "thixis/fem/forms.hpp"
 #include "thixis/fem/lagrange_space.hpp"
 #include "thixis/mesh/build.hpp"

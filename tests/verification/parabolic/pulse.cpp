@@ -3,7 +3,7 @@
 
 #include "march.hpp"
 #include "thixis/complementarity/newton.hpp"
-#include "thixis/fem/lagrange_space.hpp"
+#include "thixis/fem/entry.hpp"
 
 namespace thixis::verification {
 namespace {
