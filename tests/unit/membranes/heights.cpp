@@ -1,4 +1,4 @@
-#include "heights.hpp"
+#include "scene/heights.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "heights.hpp"
-#include "membrane_measure.hpp"
+#include "problem/membrane_measure.hpp"
+#include "scene/heights.hpp"
 #include "thixis/fem/entry.hpp"
 #include "thixis/fem/forms.hpp"
 #include "thixis/fem/lagrange_space.hpp"

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <string>
 
-#include "membrane_operator.hpp"
 #include "methods.hpp"
+#include "problem/membrane_operator.hpp"
 #include "thixis/complementarity/newton.hpp"
 #include "thixis/fem/lagrange_space.hpp"
 #include "thixis/membranes/membranes.hpp"
