@@ -3,25 +3,14 @@
 #include <string>
 #include <vector>
 
-#include "thixis/membranes/scene.hpp"
+#include "scene/boundary.hpp"
 #include "thixis/mesh/build.hpp"
 #include "thixis/mesh/locate.hpp"
-#include "thixis/mesh/mesh.hpp"
-#include "thixis/method/space.hpp"
+#include "thixis/method/params.hpp"
 #include "thixis/models/model.hpp"
 
 /// What is wrong with a membrane scene on a mesh, found before anything is computed or written. All throw InputError on all ranks.
 namespace thixis::membranes {
-
-/// The scene's conditions in the order of the mesh's tags.
-struct Boundary {
-  std::vector<std::string> named;  ///< by which group the deck speaks of each part; empty: by none
-  std::vector<bool> dirichlet;
-  method::BoundaryValues values[2];
-};
-
-/// Throws for tags that the mesh does not have, and tags without data.
-Boundary boundary_of(const MembraneScene& scene, const mesh::Mesh& mesh);
 
 /// Throws where no part of the boundary is held. In time nothing needs to be: the membranes move, and have a place at every time.
 void check_held(const MembraneScene& scene, const Boundary& boundary);
@@ -34,10 +23,6 @@ void check_boundary(const MembraneScene& scene, const Boundary& boundary, const 
 /// The same at several times, without the mesh: at points of the boundary of a domain that a generator makes. Those of a file are not
 /// looked at.
 void check_boundary(const MembraneScene& scene, const mesh::MeshParams& params, const std::vector<double>& times);
-
-/// Whether functions, and values on held parts of the boundary, are known not to depend on time; null: nothing is there.
-bool steady(const std::vector<scene::FieldPtr>& fields);
-bool steady_boundary(const MembraneScene& scene);
 
 /// Throws where u_1 < u_2 at time 0. Collective.
 void check_order(const scene::FieldPtr (&initial)[2], const method::MethodParams& method, const mesh::Mesh& mesh);

@@ -1,5 +1,5 @@
 #pragma once
-#include "checks/membrane_checks.hpp"
+#include "scene/boundary.hpp"
 
 namespace thixis::membranes {
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "checks/membrane_checks.hpp"
 #include "thixis/method/transfer.hpp"
 
 namespace thixis::membranes {

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "checks/membrane_checks.hpp"
 #include "problem/membrane_problem.hpp"
+#include "scene/boundary.hpp"
 #include "thixis/bound/guaranteed_bound.hpp"
 #include "thixis/complementarity/active_set.hpp"
 #include "thixis/method/method.hpp"

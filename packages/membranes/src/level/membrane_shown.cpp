@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "checks/membrane_checks.hpp"
 #include "level/membrane_level.hpp"
 #include "thixis/method/values_at.hpp"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "checks/membrane_checks.hpp"
+#include "scene/boundary.hpp"
 
 namespace thixis::membranes {
 
