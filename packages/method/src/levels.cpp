@@ -28,6 +28,8 @@ const Transfer& Levels::transfer(int level) {
   return *transfer;
 }
 
+void Levels::keep_to(int level) { levels_.erase(levels_.upper_bound(level), levels_.end()); }
+
 void Levels::keep_from(int level) {
   levels_.erase(levels_.begin(), levels_.lower_bound(level));
   if (const auto first = levels_.find(level); first != levels_.end()) first->second.transfer.reset();

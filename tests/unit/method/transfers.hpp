@@ -103,10 +103,16 @@ inline void expect_kept(const Method& method, SpaceOptions options) {
   EXPECT_NE(levels.diffusion(finest, tension), levels.diffusion(finest, scene::constant(2)));
   EXPECT_EQ(&levels.diffusion(finest, tension)->space(), levels.space(finest).get());
   const std::weak_ptr<Space> coarse = levels.space(finest - 1), fine = levels.space(finest);
+  levels.keep_to(finest);
+  EXPECT_EQ(levels.kept(), finest + 1);
   levels.keep_from(finest);
   EXPECT_EQ(levels.kept(), 1);
   EXPECT_TRUE(coarse.expired());
   EXPECT_FALSE(fine.expired());
+  levels.keep_to(finest - 1);
+  EXPECT_EQ(levels.kept(), 0);
+  EXPECT_TRUE(fine.expired());
+  EXPECT_EQ(&levels.space(0)->mesh(), &hierarchy.levels.front());
 }
 
 }  // namespace thixis::method

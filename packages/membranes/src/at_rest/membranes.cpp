@@ -20,12 +20,11 @@ using method::Coefficients;
 
 class MembraneDiscretization final : public MembranesOnMesh<models::Discretization> {
  public:
-  MembraneDiscretization(const MembraneScene& scene, double origin, const method::Method& by, const method::MethodParams& method,
-                         const algebra::LinearParams& linear, const std::array<scene::FieldPtr, 3>& initial,
-                         const mesh::Hierarchy& hierarchy, int level)
-      : scene_(scene), initial_(initial), hierarchy_(hierarchy), level_(level) {
+  MembraneDiscretization(const MembraneScene& scene, double origin, const std::shared_ptr<method::Levels>& levels, int level,
+                         const algebra::LinearParams& linear, const std::array<scene::FieldPtr, 3>& initial)
+      : scene_(scene), initial_(initial) {
     const core::Region region("assembly");
-    on_mesh_ = std::make_unique<MembraneLevel>(scene, origin, by, method, linear, hierarchy.levels[level]);
+    on_mesh_ = std::make_unique<MembraneLevel>(scene, origin, levels, level, linear);
   }
 
   int sweeps() const override { return on_mesh_->forms()[0]->symmetric() ? 10 : 0; }
@@ -43,6 +42,7 @@ class MembraneDiscretization final : public MembranesOnMesh<models::Discretizati
   Teuchos::RCP<Vector> nested_start(const models::Discretization& coarse_level, const Vector& coarse_X) const override {
     const auto& coarse = dynamic_cast<const MembraneDiscretization&>(coarse_level);
     auto X = on_mesh_->from_coarse(*coarse.on_mesh_, coarse_X);
+    on_mesh_->levels().keep_from(on_mesh_->level());
     // moments come with noise of both signs
     if (space().nodal_multiplier()) on_mesh_->problem().make_complementary(*X);
     return X;
@@ -59,7 +59,7 @@ class MembraneDiscretization final : public MembranesOnMesh<models::Discretizati
   complementarity::Estimate estimate(const Vector& X) override {
     if (!bound_) {
       const core::Region region("estimate set-up");
-      bound_ = std::make_unique<bound::GuaranteedBound>(space(), on_mesh_->contact_problem(), hierarchy_, level_);
+      bound_ = std::make_unique<bound::GuaranteedBound>(space(), on_mesh_->contact_problem(), hierarchy(), on_mesh_->level());
     }
     const MembraneIterate seen(*on_mesh_, X);
     return (*bound_)(seen.iterate);
@@ -78,7 +78,7 @@ class MembraneDiscretization final : public MembranesOnMesh<models::Discretizati
     const double C = friedrichs ? *friedrichs : bound::friedrichs_of_box(space().mesh());
     const MembraneIterate seen(*on_mesh_, X);
     const Coefficients gap = difference(seen.iterate.u[0], scene_.count == 2 ? seen.iterate.u[1] : on_mesh_->obstacle());
-    const auto bound = bound::published_bound(space(), on_mesh_->contact_problem(), hierarchy_, level_, seen.iterate, gap, C);
+    const auto bound = bound::published_bound(space(), on_mesh_->contact_problem(), hierarchy(), on_mesh_->level(), seen.iterate, gap, C);
     return models::PublishedEstimate{bound.parts,
                                      {{"flux", bound.flux},
                                       {"residual", bound.residual},
@@ -92,10 +92,10 @@ class MembraneDiscretization final : public MembranesOnMesh<models::Discretizati
   models::Rounding rounding(const Vector& X) const override { return on_mesh_->rounding(X); }
 
  private:
+  const mesh::Hierarchy& hierarchy() const { return on_mesh_->levels().hierarchy(); }
+
   const MembraneScene& scene_;
   const std::array<scene::FieldPtr, 3>& initial_;
-  const mesh::Hierarchy& hierarchy_;
-  int level_;
   std::unique_ptr<bound::GuaranteedBound> bound_;  ///< made when an estimate is first asked for
 };
 
@@ -122,8 +122,9 @@ class Membranes final : public models::StationaryModel {
   }
   std::unique_ptr<models::Discretization> discretize(const mesh::Hierarchy& hierarchy, int level) const override {
     if (!counted_) count_from(heights_of(scene_, hierarchy.levels.front(), 0).origin());
-    return std::make_unique<MembraneDiscretization>(counted_->scene, counted_->origin, by_, method_, linear_, counted_->initial, hierarchy,
-                                                    level);
+    const auto levels = levels_on(hierarchy);
+    levels->keep_to(level);
+    return std::make_unique<MembraneDiscretization>(counted_->scene, counted_->origin, levels, level, linear_, counted_->initial);
   }
 
  private:
@@ -138,8 +139,16 @@ class Membranes final : public models::StationaryModel {
     for (int alpha = 0; alpha < scene_.count; ++alpha) counted_->initial[alpha] = scene::shifted(initial_[alpha], -origin);
   }
 
+  /// They live as long as a discretization of theirs, and so does the hierarchy.
+  std::shared_ptr<method::Levels> levels_on(const mesh::Hierarchy& hierarchy) const {
+    auto levels = levels_.lock();
+    if (!levels || &levels->hierarchy() != &hierarchy) levels_ = levels = levels_of(counted_->scene, by_, method_, hierarchy);
+    return levels;
+  }
+
   MembraneScene scene_;
   mutable std::optional<Counted> counted_;  ///< since the first mesh
+  mutable std::weak_ptr<method::Levels> levels_;
   method::Method by_;
   method::MethodParams method_;
   algebra::LinearParams linear_;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "checks/membrane_checks.hpp"
 #include "scene/heights.hpp"
 #include "thixis/core/timer.hpp"
 #include "thixis/method/measures.hpp"
@@ -25,10 +26,9 @@ ParabolicEvolution::ParabolicEvolution(const MembraneScene& scene, const method:
                                        std::vector<models::Probe> probes)
     : origin_(heights_of(scene, hierarchy.levels.front(), 0).origin()),
       scene_(counted_from(origin_, scene)),
-      by_(by),
-      method_(method),
       linear_(linear),
       hierarchy_(std::move(hierarchy)),
+      levels_(levels_of(scene_, by, method, hierarchy_)),
       friedrichs_(friedrichs),
       probes_(std::move(probes)) {
   on_mesh_ = make_level();
@@ -44,7 +44,7 @@ Teuchos::RCP<Vector> ParabolicEvolution::initial() {
 
 void ParabolicEvolution::check(const std::vector<double>& times) const {
   if (steady_boundary(scene_)) return;
-  for (const double t : times) check_boundary(scene_, on_mesh_->boundary(), method_, space().mesh(), t);
+  for (const double t : times) check_boundary(scene_, on_mesh_->boundary(), space().options().params, space().mesh(), t);
 }
 
 void ParabolicEvolution::begin(const models::TimeStep& step, const Vector& before) {

@@ -78,16 +78,16 @@ class ParabolicEvolution final : public MembranesOnMesh<models::Evolution> {
   std::unique_ptr<bound::StepBound> make_bound(double time) const;
   void append(const std::vector<GlobalIndex>& marked);
   void go_to_finest();
+  int finest() const { return static_cast<int>(hierarchy_.levels.size()) - 1; }
   void replay(const output::StoredCheckpoint& stored);
   std::unique_ptr<MembraneLevel> make_level() const;
 
   double origin_;              ///< of heights: where the membranes are held at the beginning
   const MembraneScene scene_;  ///< with heights counted from there
-  const method::Method& by_;
-  method::MethodParams method_;
   algebra::LinearParams linear_;
   models::TimeScheme scheme_;
   mesh::Hierarchy hierarchy_;
+  std::shared_ptr<method::Levels> levels_;          ///< of it
   std::optional<double> friedrichs_;                ///< given in the deck
   std::vector<models::Probe> probes_;               ///< of series.csv
   std::map<int, std::vector<GlobalIndex>> marked_;  ///< cells whose refinement made this level

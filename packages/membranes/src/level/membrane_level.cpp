@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "checks/membrane_checks.hpp"
-#include "thixis/method/transfer.hpp"
+#include "thixis/core/assert.hpp"
 
 namespace thixis::membranes {
 namespace {
@@ -26,11 +26,22 @@ void keep_in_order(const Coefficients& upper, const Coefficients& lower, const s
 
 }  // namespace
 
-MembraneLevel::MembraneLevel(const MembraneScene& scene, double origin, const method::Method& by, const method::MethodParams& method,
-                             const algebra::LinearParams& linear, const mesh::Mesh& mesh)
-    : scene_(scene), origin_(origin), method_(method), boundary_(boundary_of(scene, mesh)) {
-  space_ = by.make_space(mesh, {boundary_.dirichlet, scene.interface_level_set, method});
-  for (int alpha = 0; alpha < scene.count; ++alpha) form_[alpha] = by.diffusion(*space_, scene.tension[alpha]);
+std::shared_ptr<method::Levels> levels_of(const MembraneScene& scene, const method::Method& by, const method::MethodParams& method,
+                                          const mesh::Hierarchy& hierarchy) {
+  return std::make_shared<method::Levels>(hierarchy, by, [&scene, method](const mesh::Mesh& mesh) {
+    return method::SpaceOptions{boundary_of(scene, mesh).dirichlet, scene.interface_level_set, method};
+  });
+}
+
+MembraneLevel::MembraneLevel(const MembraneScene& scene, double origin, const std::shared_ptr<method::Levels>& levels, int level,
+                             const algebra::LinearParams& linear)
+    : scene_(scene),
+      origin_(origin),
+      levels_(levels),
+      level_(level),
+      space_(levels->space(level)),
+      boundary_(boundary_of(scene, space_->mesh())) {
+  for (int alpha = 0; alpha < scene.count; ++alpha) form_[alpha] = levels->diffusion(level, scene.tension[alpha]);
   steady_interface_ = steady({scene.interface_level_set});
   for (int alpha = 0; alpha < scene.count; ++alpha) {
     const auto& [dirichlet, neumann] = boundary_.values[alpha];
@@ -42,7 +53,8 @@ MembraneLevel::MembraneLevel(const MembraneScene& scene, double origin, const me
   set_lifts();
   nothing_ = Coefficients("thixis::membranes::nothing", lift_[0].extent(0));
   set_loads();
-  problem_ = std::make_unique<MembraneProblem>(membrane_operator(scene, by, form_, lift_, body_), linear, space_->coordinates());
+  problem_ =
+      std::make_unique<MembraneProblem>(membrane_operator(scene, levels->method(), form_, lift_, body_), linear, space_->coordinates());
   require_stiffness();
   if (scene.count == 1) obstacle_ = space_->complete(*problem_->membranes().obstacle, lift_of_obstacle());
   measure_from_rest();
@@ -51,7 +63,8 @@ MembraneLevel::MembraneLevel(const MembraneScene& scene, double origin, const me
 void MembraneLevel::set_lifts() {
   for (int alpha = 0; alpha < scene_.count; ++alpha) lift_[alpha] = space_->lift(boundary_.values[alpha], time_);
   // Bernstein coefficients of ordered data need not be ordered
-  if (method_.nodes == method::Nodes::bernstein && scene_.count == 2) keep_in_order(lift_[0], lift_[1], share_of_upper_tension());
+  if (space_->options().params.nodes == method::Nodes::bernstein && scene_.count == 2)
+    keep_in_order(lift_[0], lift_[1], share_of_upper_tension());
 }
 
 void MembraneLevel::set_loads() {
@@ -64,17 +77,18 @@ void MembraneLevel::move_to(double t) {
   time_ = t;
   if (!steady_interface_) space_->move_interface(t);
   if (!steady_boundary_) {
-    check_boundary(scene_, boundary_, method_, space_->mesh(), t);
+    check_boundary(scene_, boundary_, space_->options().params, space_->mesh(), t);
     set_lifts();
   }
   if (!steady_loads_) set_loads();
 }
 
 Teuchos::RCP<Vector> MembraneLevel::from_coarse(const MembraneLevel& coarse, const Vector& coarse_X) const {
+  THIXIS_ASSERT_EQ(coarse.level_, level_ - 1, "a start comes from the level before");
   Vector settled(coarse_X, Teuchos::Copy);
   coarse.problem_->settle(settled);
   const Fields coarse_x = coarse.fields(settled);
-  const method::Transfer P(*coarse.space_, *space_);
+  const method::Transfer& P = levels_->transfer(level_);
   const auto X = zero();
   Fields x = fields(*X);
   for (int alpha = 0; alpha < scene_.count; ++alpha) {

@@ -7,7 +7,7 @@
 #include "scene/boundary.hpp"
 #include "thixis/bound/guaranteed_bound.hpp"
 #include "thixis/complementarity/active_set.hpp"
-#include "thixis/method/method.hpp"
+#include "thixis/method/levels.hpp"
 #include "thixis/models/model.hpp"
 #include "thixis/output/checkpoint.hpp"
 #include "thixis/output/fields.hpp"
@@ -17,13 +17,19 @@ namespace thixis::membranes {
 /// The name of a displacement: of a field, and in checkpoints.
 inline std::string displacement(int count, int alpha) { return count == 1 ? "u" : alpha == 0 ? "u1" : "u2"; }
 
+/// The spaces of a scene on the levels of a hierarchy. Scene and hierarchy must outlive them.
+std::shared_ptr<method::Levels> levels_of(const MembraneScene& scene, const method::Method& by, const method::MethodParams& method,
+                                          const mesh::Hierarchy& hierarchy);
+
 /// Membranes on one mesh: the space, the data at one time, the algebraic problem, and what is read of its X.
 class MembraneLevel {
  public:
-  /// At time 0. The scene, whose heights are counted from `origin`, and the mesh must outlive it. Collective.
-  MembraneLevel(const MembraneScene& scene, double origin, const method::Method& by, const method::MethodParams& method,
-                const algebra::LinearParams& linear, const mesh::Mesh& mesh);
+  /// At time 0. Takes space and forms from `levels`. The scene, whose heights are counted from `origin`, must outlive it. Collective.
+  MembraneLevel(const MembraneScene& scene, double origin, const std::shared_ptr<method::Levels>& levels, int level,
+                const algebra::LinearParams& linear);
 
+  method::Levels& levels() const { return *levels_; }
+  int level() const { return level_; }
   const MembraneScene& scene() const { return scene_; }
   int count() const { return scene_.count; }
   const method::Space& space() const { return *space_; }
@@ -47,7 +53,7 @@ class MembraneLevel {
   /// u_alpha with the boundary values of the time.
   method::Coefficients membrane(const Fields& x, int alpha) const { return space_->complete(*x.u.getVector(alpha), lift_[alpha]); }
 
-  /// X from the solution on a coarser mesh, which the parent cells of this one belong to.
+  /// X from the solution on the level before. Collective.
   Teuchos::RCP<algebra::Vector> from_coarse(const MembraneLevel& coarse, const algebra::Vector& coarse_X) const;
 
   /// Measures residuals by what acts on the membranes from u°, beside the forces on them. Collective.
@@ -86,8 +92,9 @@ class MembraneLevel {
 
   const MembraneScene& scene_;
   double origin_;  ///< of heights
-  method::MethodParams method_;
-  std::unique_ptr<method::Space> space_;
+  std::shared_ptr<method::Levels> levels_;
+  int level_;
+  std::shared_ptr<method::Space> space_;
   std::array<method::FormPtr, 2> form_;
   Boundary boundary_;
   std::array<double, 2> rest_ = {0, 0};                   ///< heights at which the membranes rest at the beginning

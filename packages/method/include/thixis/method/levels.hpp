@@ -25,6 +25,7 @@ class Levels {
 
   /// Lets go of all levels before this one, and of the transfer to it.
   void keep_from(int level);
+  void keep_to(int level);                                       ///< … of those behind it
   int kept() const { return static_cast<int>(levels_.size()); }  ///< so many levels
 
  private:
