@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "thixis/mesh/geometry.hpp"
 #include "thixis/mesh/host.hpp"
+#include "thixis/mesh/statistics.hpp"
 #include "thixis/method/measures.hpp"
 
 namespace thixis::membranes {
@@ -14,24 +14,15 @@ namespace {
 using algebra::Vector;
 using method::Coefficients;
 
-struct Extent {
-  double width = 0;  ///< diagonal of the box around the mesh
-  double area = 0;
-};
-
 /// Collective.
-Extent extent_of(const mesh::Mesh& mesh) {
-  const auto x = mesh::on_host(mesh).coordinates;
-  double box[4] = {-1e300, -1e300, -1e300, -1e300};  // -lower, upper
-  for (LocalIndex v = 0; v < mesh.vertices; ++v)
-    for (int d = 0; d < 2; ++d) {
-      box[d] = std::max(box[d], -x(v, d));
-      box[2 + d] = std::max(box[2 + d], x(v, d));
-    }
-  for (double& side : box) side = mesh.comm.max(side);
+double area_of(const mesh::Mesh& mesh) {
+  const auto coordinates = mesh.coordinates;
+  const auto vertices = mesh.cell_vertices;
   double area = 0;
-  for (LocalIndex K = 0; K < mesh.owned_cells; ++K) area += mesh::cell_area(mesh.coordinates, mesh.cell_vertices, K);
-  return {std::hypot(box[2] + box[0], box[3] + box[1]), mesh.comm.sum(area)};
+  Kokkos::parallel_reduce(
+      "thixis::membranes::area", Kokkos::RangePolicy<>(0, mesh.owned_cells),
+      KOKKOS_LAMBDA(int K, double& sum) { sum += mesh::cell_area(coordinates, vertices, K); }, area);
+  return mesh.comm.sum(area);
 }
 
 /// The part of v at the contact points.
@@ -65,14 +56,6 @@ double largest_elsewhere(const Vector& v, LocalIndex points) {
   return algebra::comm_of(*v.getMap()).max(value);
 }
 
-/// (f, psi_l), no boundary data among it.
-Vector force_alone(const MembraneSolution& solution, int alpha) {
-  const std::vector<scene::FieldPtr> zero(solution.space.mesh().tags.size(), scene::constant(0));
-  Vector F(solution.space.map());
-  method::load(*solution.form[alpha], *solution.scene.force[alpha], {zero, zero}, solution.t, F);
-  return F;
-}
-
 /// Forces that matter at one point: those on a membrane, those that contact passes on.
 struct PointForces {
   std::vector<double> on_membrane;
@@ -82,15 +65,15 @@ struct PointForces {
 /// `largest`: what is there at some point. Whatever it is, the force counts that bends a membrane to its height over the width of the
 /// domain; what drives the gap acts on both; round-off counts as nothing.
 PointForces point_forces(const MembraneSolution& solution, std::vector<double> largest) {
-  const MembraneOperator& membranes = solution.problem.membranes();
-  const MembraneMeasure& measure = solution.problem.measure();
-  const Extent domain = extent_of(solution.space.mesh());
+  const MembraneOperator& membranes = solution.on_mesh.problem().membranes();
+  const MembraneMeasure& measure = solution.on_mesh.problem().measure();
+  const mesh::Mesh& mesh = solution.on_mesh.space().mesh();
+  const double width = mesh::bounding_box(mesh).diagonal(), area = area_of(mesh);
   const auto points = static_cast<double>(std::max<std::size_t>(membranes.points()->getGlobalNumElements(), 1));
   PointForces forces;
   for (int alpha = 0; alpha < membranes.count(); ++alpha) {
-    const double curvature = measure.displacement(alpha, solution.x.u) / (domain.width * domain.width);
-    largest[alpha] =
-        std::max(largest[alpha], largest_tension(*solution.scene.tension[alpha], solution.space.mesh()) * curvature * domain.area / points);
+    const double curvature = measure.displacement(alpha, solution.x.u) / (width * width);
+    largest[alpha] = std::max(largest[alpha], largest_tension(*solution.on_mesh.scene().tension[alpha], mesh) * curvature * area / points);
     forces.through_contact += (membranes.count() == 1 ? 1 : membranes.theta[1 - alpha]) * largest[alpha];
   }
   for (int alpha = 0; alpha < membranes.count(); ++alpha)
@@ -106,9 +89,11 @@ PointForces point_forces(const MembraneSolution& solution, std::vector<double> l
 }  // namespace
 
 complementarity::KktData kkt_data(const MembraneSolution& solution) {
-  const auto& [scene, space, form, problem, body, x, u, t, rate] = solution;
-  const MembraneOperator& membranes = problem.membranes();
-  const MembraneMeasure& measure = problem.measure();
+  const auto& [on_mesh, x, u, rate] = solution;
+  const MembraneScene& scene = on_mesh.scene();
+  const method::Space& space = on_mesh.space();
+  const MembraneOperator& membranes = on_mesh.problem().membranes();
+  const MembraneMeasure& measure = on_mesh.problem().measure();
   const LocalIndex points = algebra::local_size(*membranes.points());
   complementarity::KktData data;
   auto gap_l = Teuchos::rcp(new Vector(membranes.points()));
@@ -117,25 +102,25 @@ complementarity::KktData kkt_data(const MembraneSolution& solution) {
   auto claimed = Teuchos::rcp(new Vector(membranes.points()));
   claimed->elementWiseMultiply(1, space.pairing(), x.lambda, 0);
   data.claimed = claimed;
-  data.between_nodes = scene.count == 1 ? method::penetration(space, u[0], scene.obstacle.get(), t)
-                                        : method::penetration(space, difference(u[0], u[1]), nullptr, t);
+  data.between_nodes = scene.count == 1 ? method::penetration(space, u[0], scene.obstacle.get(), on_mesh.time())
+                                        : method::penetration(space, difference(u[0], u[1]), nullptr, on_mesh.time());
 
   std::vector<double> largest, unbalanced;
   for (int alpha = 0; alpha < scene.count; ++alpha) {
     // D lambda_1 = a(u1, psi) - F1,  D lambda_2 = F2 - a(u2, psi), with (d_t u, psi) beside a(u, psi) in time
     Vector defect(space.map()), inertia(space.map());
-    method::apply(*form[alpha], u[alpha], defect);
+    method::apply(*on_mesh.forms()[alpha], u[alpha], defect);
     if (rate[alpha].extent(0) > 0) {
       method::apply(*method::mass(space), rate[alpha], inertia);
       defect.update(1, inertia, 1);
     }
     const double sign = alpha == 0 ? 1 : -1;
-    defect.update(-sign, *body[alpha], sign);
+    defect.update(-sign, *on_mesh.body()[alpha], sign);
     const auto pressed = at_points(defect, membranes);
     data.equilibrium.push_back(pressed);
     unbalanced.push_back(largest_elsewhere(defect, points));
-    largest.push_back(std::max(
-        {pressed->normInf(), at_points(force_alone(solution, alpha), membranes)->normInf(), at_points(inertia, membranes)->normInf()}));
+    largest.push_back(std::max({pressed->normInf(), at_points(on_mesh.force_alone(alpha, Tractions::without), membranes)->normInf(),
+                                at_points(inertia, membranes)->normInf()}));
   }
   const PointForces forces = point_forces(solution, largest);
   data.body_scale = forces.on_membrane;

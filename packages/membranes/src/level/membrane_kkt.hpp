@@ -1,19 +1,14 @@
 #pragma once
-#include "problem/membrane_problem.hpp"
+#include "level/membrane_level.hpp"
 #include "thixis/complementarity/kkt.hpp"
 
 namespace thixis::membranes {
 
 /// A solution X with its membranes as functions.
 struct MembraneSolution {
-  const MembraneScene& scene;
-  const method::Space& space;
-  const std::array<method::FormPtr, 2>& form;
-  const MembraneProblem& problem;
-  const Teuchos::RCP<algebra::Vector>* body;  ///< loads, before Dirichlet data are moved to the right
+  const MembraneLevel& on_mesh;  ///< with the data of its time
   Fields x;
   method::Coefficients u[2] = {};
-  double t = 0;                       ///< of the data
   method::Coefficients rate[2] = {};  ///< of a scene in time: (u_alpha - u_alpha^{n-1}) / tau, which the equations hold besides
 };
 

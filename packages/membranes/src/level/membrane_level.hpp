@@ -21,6 +21,9 @@ inline std::string displacement(int count, int alpha) { return count == 1 ? "u" 
 std::shared_ptr<method::Levels> levels_of(const MembraneScene& scene, const method::Method& by, const method::MethodParams& method,
                                           const mesh::Hierarchy& hierarchy);
 
+/// Whether forces take those on the boundary in.
+enum class Tractions { without, with };
+
 /// Membranes on one mesh: the space, the data at one time, the algebraic problem, and what is read of its X.
 class MembraneLevel {
  public:
@@ -44,8 +47,10 @@ class MembraneLevel {
   double time() const { return time_; }
   const method::Coefficients& lift(int alpha) const { return lift_[alpha]; }
   const Teuchos::RCP<algebra::Vector>* body() const { return body_; }  ///< loads, before the lifts are moved to the right
-  const method::Coefficients& nothing() const { return nothing_; }     ///< no boundary values
-  const method::Coefficients& obstacle() const { return obstacle_; }   ///< the interpolant of psi, for count = 1
+  /// (f_alpha, psi_l), and <t_alpha, psi_l> with tractions; no boundary values among them. Collective.
+  algebra::Vector force_alone(int alpha, Tractions tractions) const;
+  const method::Coefficients& nothing() const { return nothing_; }    ///< no boundary values
+  const method::Coefficients& obstacle() const { return obstacle_; }  ///< the interpolant of psi, for count = 1
 
   Teuchos::RCP<algebra::Vector> zero() const { return Teuchos::rcp(new algebra::Vector(problem_->map())); }
   Fields fields(algebra::Vector& X) const { return Fields(problem_->membranes(), X); }
@@ -80,7 +85,6 @@ class MembraneLevel {
  private:
   void require_stiffness() const;
   void measure_from_rest();
-  algebra::Vector force_alone(int alpha) const;
   double reach(double low) const;
   void set_lifts();
   void set_loads();

@@ -38,7 +38,7 @@ void MembraneLevel::measure_from_rest() {
     space_->interpolate(*scene::constant(rest_[alpha]), 0, *u.getVectorNonConst(alpha));
   }
   problem_->measure_from({&u, rest_, size_, scene_.count == 1 ? reach(std::min(heights.low[0], rest_[0])) : 0,
-                          [this](int alpha) { return force_alone(alpha).norm2(); }});
+                          [this](int alpha) { return force_alone(alpha, Tractions::with).norm2(); }});
 }
 
 void MembraneLevel::measure_from(const algebra::MultiVector& u) { problem_->measure_from({&u, rest_, size_, 0, {}}, body_); }
@@ -50,13 +50,12 @@ void MembraneLevel::start_from(const algebra::MultiVector& u) {
   measure_from_rest();
 }
 
-/// (f, psi_l) and tractions, no boundary values among them.
-Vector MembraneLevel::force_alone(int alpha) const {
-  auto unheld = boundary_.values[alpha];
-  for (auto& value : unheld.dirichlet)
-    if (value) value = scene::constant(0);
+Vector MembraneLevel::force_alone(int alpha, Tractions tractions) const {
   Vector force(space_->map());
-  method::load(*form_[alpha], *scene_.force[alpha], unheld, time_, force);
+  space_->mesh().comm.together([&] {
+    space_->add_moments(*scene_.force[alpha], time_, force);
+    if (tractions == Tractions::with) space_->add_traces(boundary_.values[alpha].neumann, time_, force);
+  });
   return force;
 }
 
@@ -64,7 +63,7 @@ Vector MembraneLevel::force_alone(int alpha) const {
 double MembraneLevel::reach(double low) const {
   Vector softness(space_->map());
   softness.reciprocal(problem_->measure().diagonal(0));
-  return low - 4 * force_alone(0).norm1() * softness.normInf();
+  return low - 4 * force_alone(0, Tractions::with).norm1() * softness.normInf();
 }
 
 models::Rounding MembraneLevel::rounding(const Vector& X) const {
@@ -74,7 +73,7 @@ models::Rounding MembraneLevel::rounding(const Vector& X) const {
   std::array<double, 2> force = {0, 0};
   models::Rounding rounding;
   for (int alpha = 0; alpha < scene_.count; ++alpha) {
-    force[alpha] = force_alone(alpha).norm2();
+    force[alpha] = force_alone(alpha, Tractions::with).norm2();
     rounding.height = std::max(rounding.height, height[alpha]);
     if (force[alpha] > 0) rounding.of_forces = std::max(rounding.of_forces, lost[alpha] / force[alpha]);
   }

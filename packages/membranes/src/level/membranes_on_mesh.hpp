@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "level/membrane_kkt.hpp"
-#include "level/membrane_level.hpp"
 
 namespace thixis::membranes {
 
@@ -58,8 +57,7 @@ class MembranesOnMesh : public Scene {
   }
   /// What the verifier judges, but for what changes in time.
   MembraneSolution solution(const algebra::Vector& X) const {
-    MembraneSolution solution{on_mesh_->scene(), space(), on_mesh_->forms(), on_mesh_->problem(), on_mesh_->body(), on_mesh_->fields(X)};
-    solution.t = on_mesh_->time();
+    MembraneSolution solution{*on_mesh_, on_mesh_->fields(X)};
     for (int alpha = 0; alpha < on_mesh_->count(); ++alpha) solution.u[alpha] = on_mesh_->membrane(solution.x, alpha);
     return solution;
   }
