@@ -8,7 +8,8 @@
 #include "data/tables.hpp"
 #include "data/tension_bounds.hpp"
 #include "deviation/deviation.hpp"
-#include "feasible/shares.hpp"
+#include "feasible/nodes.hpp"
+#include "thixis/bound/shares.hpp"
 #include "thixis/mesh/host.hpp"
 
 namespace thixis::bound {
@@ -67,8 +68,8 @@ void FeasiblePair::Impl::set_tensions() {
     }
     most[alpha] = bounds.most;
   }
-  kernel.apart[0] = both ? typical[1] / (typical[0] + typical[1]) : 1;
-  kernel.apart[1] = 1 - kernel.apart[0];
+  const auto of_way = both ? shares(typical[0], typical[1]).of_way : std::array<double, 2>{1, 0};
+  std::copy(of_way.begin(), of_way.end(), kernel.apart);
   const double* const apart = kernel.apart;
   kernel.constant_move_tension = typical[0] * apart[0] * apart[0] + typical[1] * apart[1] * apart[1];
   if (!varying) return;
@@ -76,7 +77,7 @@ void FeasiblePair::Impl::set_tensions() {
   for (LocalIndex K = 0; K < space.mesh().owned_cells; ++K)
     for (int alpha = 0; alpha < problem.count; ++alpha) of_move[K] += most[alpha][K] * apart[alpha] * apart[alpha];
   kernel.move_tension = to_view("thixis::bound::move_tension", of_move);
-  if (both) kernel.theta = to_view("thixis::bound::theta", comm.together([&] { return shares(space, nodes, problem.tension); }));
+  if (both) kernel.theta = to_view("thixis::bound::theta", comm.together([&] { return ways_of_upper(space, nodes, problem.tension); }));
 }
 
 void FeasiblePair::Impl::set_kernel() {

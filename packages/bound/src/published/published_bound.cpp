@@ -10,6 +10,7 @@
 #include "flux/discretization_flux.hpp"
 #include "published/published_terms.hpp"
 #include "thixis/algebra/tpetra.hpp"
+#include "thixis/bound/shares.hpp"
 #include "thixis/mesh/ancestry.hpp"
 #include "thixis/mesh/statistics.hpp"
 
@@ -113,11 +114,9 @@ class Evaluation {
   /// |||theta_1 c||| + … of both membranes giving way to close the gap by c.
   double energy(const Coefficients& c) const {
     if (problem_.count == 1) return std::sqrt(method::energy(*problem_.form[0], c));
+    const auto theta = shares(smallest_[0], smallest_[1]).of_way;
     double sum = 0;
-    for (int alpha = 0; alpha < 2; ++alpha) {
-      const double theta = smallest_[1 - alpha] / (smallest_[0] + smallest_[1]);
-      sum += theta * theta * method::energy(*problem_.form[alpha], c);
-    }
+    for (int alpha = 0; alpha < 2; ++alpha) sum += theta[alpha] * theta[alpha] * method::energy(*problem_.form[alpha], c);
     return std::sqrt(sum);
   }
 

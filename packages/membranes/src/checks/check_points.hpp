@@ -5,23 +5,11 @@
 #include <vector>
 
 #include "checks/membrane_checks.hpp"
+#include "scene/point_list.hpp"
 #include "thixis/mesh/host.hpp"
 
 /// What the checks share.
 namespace thixis::membranes {
-
-struct PointList {
-  std::vector<double> x, y;
-  void add(double px, double py) {
-    x.push_back(px);
-    y.push_back(py);
-  }
-  std::vector<double> evaluate(const scene::Field& field, double t = 0) const {
-    std::vector<double> values(x.size());
-    field.evaluate({x.size(), x.data(), y.data()}, t, values.data());
-    return values;
-  }
-};
 
 /// Points of the faces of a part of the boundary on this rank: their ends, or those of the quadrature of Neumann data.
 inline PointList points_on(const mesh::Mesh& mesh, const mesh::HostMesh& host, std::size_t tag, const std::vector<double>& along) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/point_list.hpp"
 #include "thixis/mesh/geometry.hpp"
 #include "thixis/mesh/host.hpp"
 #include "thixis/mesh/statistics.hpp"
@@ -37,15 +38,11 @@ Teuchos::RCP<Vector> at_points(const Vector& v, const MembraneOperator& membrane
 /// Largest tension at the vertices. Collective.
 double largest_tension(const scene::Field& tension, const mesh::Mesh& mesh) {
   if (const double* constant = tension.constant()) return *constant;
-  const auto host = mesh::on_host(mesh);
-  const auto count = static_cast<std::size_t>(mesh.vertices);
-  std::vector<double> x(count), y(count), mu(count);
-  for (std::size_t v = 0; v < count; ++v) {
-    x[v] = host.coordinates(v, 0);
-    y[v] = host.coordinates(v, 1);
-  }
-  mesh.comm.together([&] { tension.evaluate({count, x.data(), y.data()}, 0, mu.data()); });
-  return mesh.comm.max(count > 0 ? *std::max_element(mu.begin(), mu.end()) : 0.0);
+  const auto x = mesh::on_host(mesh).coordinates;
+  PointList vertices;
+  for (LocalIndex v = 0; v < mesh.vertices; ++v) vertices.add(x(v, 0), x(v, 1));
+  const auto mu = mesh.comm.together([&] { return vertices.evaluate(tension); });
+  return mesh.comm.max(mu.empty() ? 0.0 : *std::max_element(mu.begin(), mu.end()));
 }
 
 /// Largest |v_l| at nodes that are no contact points. Collective.

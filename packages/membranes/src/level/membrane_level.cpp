@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "checks/membrane_checks.hpp"
+#include "thixis/bound/shares.hpp"
 #include "thixis/core/assert.hpp"
 
 namespace thixis::membranes {
@@ -11,16 +12,16 @@ namespace {
 using algebra::Vector;
 using method::Coefficients;
 
-/// Brings coefficients together where those of the upper membrane are below those of the lower one, the first ones: at the mean with the
-/// weights share and 1 - share.
-void keep_in_order(const Coefficients& upper, const Coefficients& lower, const std::vector<double>& share) {
-  const Coefficients theta("thixis::membranes::share", share.size());
-  const auto host = Kokkos::create_mirror_view(theta);
-  std::copy(share.begin(), share.end(), host.data());
-  Kokkos::deep_copy(theta, host);
+/// Brings coefficients together where those of the upper membrane are below those of the lower one, the first ones: the upper one goes so
+/// much of the way.
+void keep_in_order(const Coefficients& upper, const Coefficients& lower, const std::vector<double>& way) {
+  const Coefficients of_upper("thixis::membranes::way", way.size());
+  const auto host = Kokkos::create_mirror_view(of_upper);
+  std::copy(way.begin(), way.end(), host.data());
+  Kokkos::deep_copy(of_upper, host);
   Kokkos::parallel_for(
-      "thixis::membranes::keep_in_order", Kokkos::RangePolicy<>(0, share.size()), KOKKOS_LAMBDA(std::size_t i) {
-        if (upper(i) < lower(i)) upper(i) = lower(i) = theta(i) * upper(i) + (1 - theta(i)) * lower(i);
+      "thixis::membranes::keep_in_order", Kokkos::RangePolicy<>(0, way.size()), KOKKOS_LAMBDA(std::size_t i) {
+        if (upper(i) < lower(i)) upper(i) = lower(i) = (1 - of_upper(i)) * upper(i) + of_upper(i) * lower(i);
       });
 }
 
@@ -64,7 +65,10 @@ void MembraneLevel::set_lifts() {
   for (int alpha = 0; alpha < scene_.count; ++alpha) lift_[alpha] = space_->lift(boundary_.values[alpha], time_);
   // Bernstein coefficients of ordered data need not be ordered
   if (space_->options().params.nodes == method::Nodes::bernstein && scene_.count == 2)
-    keep_in_order(lift_[0], lift_[1], share_of_upper_tension());
+    keep_in_order(lift_[0], lift_[1], space_->mesh().comm.together([&] {
+      const PointList at = grid_points();
+      return bound::ways_of_upper({scene_.tension[0], scene_.tension[1]}, at.x, at.y);
+    }));
 }
 
 void MembraneLevel::set_loads() {
@@ -122,27 +126,11 @@ Coefficients MembraneLevel::lift_of_obstacle() const {
   return space_->lift(psi, 0);
 }
 
-/// Values at the points of the grid.
-std::vector<double> MembraneLevel::at_points(const scene::Field& field) const {
-  const auto points = space_->display().points;
-  std::vector<double> x, y, values(points.size());
-  for (const auto& point : points) {
-    x.push_back(point[0]);
-    y.push_back(point[1]);
-  }
-  space_->mesh().comm.together([&] { field.evaluate({points.size(), x.data(), y.data()}, 0, values.data()); });
-  return values;
-}
-
-/// mu_1 / (mu_1 + mu_2) at the points of the grid: the stiffer membrane gives way less.
-std::vector<double> MembraneLevel::share_of_upper_tension() const {
-  auto share = at_points(*scene_.tension[0]);
-  const auto lower = at_points(*scene_.tension[1]);
-  for (std::size_t i = 0; i < share.size(); ++i) {
-    const double both = share[i] + lower[i];
-    share[i] = both > 0 ? std::clamp(share[i] / both, 0.0, 1.0) : 0.5;
-  }
-  return share;
+/// Those of Space::display.
+PointList MembraneLevel::grid_points() const {
+  PointList points;
+  for (const auto& point : space_->display().points) points.add(point[0], point[1]);
+  return points;
 }
 
 MembraneIterate::MembraneIterate(const MembraneLevel& of, const Vector& X)

@@ -5,6 +5,7 @@
 
 #include "problem/membrane_problem.hpp"
 #include "scene/boundary.hpp"
+#include "scene/point_list.hpp"
 #include "thixis/bound/guaranteed_bound.hpp"
 #include "thixis/complementarity/active_set.hpp"
 #include "thixis/method/levels.hpp"
@@ -89,10 +90,9 @@ class MembraneLevel {
   void set_lifts();
   void set_loads();
   method::Coefficients lift_of_obstacle() const;
-  std::vector<double> at_points(const scene::Field& field) const;
+  PointList grid_points() const;
   algebra::Vector gaps(const Fields& x) const;
   const algebra::Vector& areas() const;
-  std::vector<double> share_of_upper_tension() const;
 
   const MembraneScene& scene_;
   double origin_;  ///< of heights

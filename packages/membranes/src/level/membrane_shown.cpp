@@ -5,19 +5,6 @@
 #include "thixis/method/values_at.hpp"
 
 namespace thixis::membranes {
-namespace {
-
-std::vector<double> values_of(const scene::Field& field, const std::vector<models::Probe>& probes) {
-  std::vector<double> x, y, values(probes.size());
-  for (const auto& probe : probes) {
-    x.push_back(probe.at[0]);
-    y.push_back(probe.at[1]);
-  }
-  field.evaluate({probes.size(), x.data(), y.data()}, 0, values.data());
-  return values;
-}
-
-}  // namespace
 
 using algebra::Vector;
 
@@ -38,7 +25,8 @@ std::vector<output::FieldData> MembraneLevel::shown(const Vector& X, const compl
   add("lambda", [&] { return space_->shown(space_->multiplier(x.lambda)); });
   add("gap", [&] {
     auto gap = space_->shown(membrane(x, 0));
-    const auto below = scene_.count == 2 ? space_->shown(membrane(x, 1)) : at_points(*scene_.obstacle);
+    const auto below = scene_.count == 2 ? space_->shown(membrane(x, 1))
+                                         : space_->mesh().comm.together([&] { return grid_points().evaluate(*scene_.obstacle); });
     for (std::size_t i = 0; i < gap.size(); ++i) gap[i] -= below[i];
     return gap;
   });
@@ -67,7 +55,9 @@ std::vector<double> MembraneLevel::values_at(const std::vector<models::Probe>& p
   for (int alpha = 0; alpha < scene_.count; ++alpha) columns.push_back(method::values_at(*space_, places, membrane(x, alpha)));
   columns.push_back(method::values_at(*space_, places, space_->multiplier(x.lambda)));
   columns.push_back(columns[0]);
-  const auto below = scene_.count == 2 ? columns[1] : values_of(*scene_.obstacle, probes);
+  PointList at;
+  for (const auto& probe : probes) at.add(probe.at[0], probe.at[1]);
+  const auto below = scene_.count == 2 ? columns[1] : at.evaluate(*scene_.obstacle);
   for (std::size_t i = 0; i < probes.size(); ++i) columns.back()[i] -= below[i];
   for (int alpha = 0; alpha < scene_.count; ++alpha)
     for (double& height : columns[alpha]) height += origin_;

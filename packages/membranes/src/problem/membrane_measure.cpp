@@ -45,7 +45,7 @@ double highest(const Vector& psi, const algebra::Map& points) {
 }  // namespace
 
 MembraneMeasure::MembraneMeasure(const MembraneOperator& membranes) : count_(membranes.count()) {
-  if (count_ == 2) share_ = membranes.theta;
+  if (count_ == 2) theta_ = membranes.theta;
   MultiVector diagonals(membranes.map(), count_);
   membranes.system.S.diagonals(diagonals);
   for (int alpha = 0; alpha < count_; ++alpha) diagonal_[alpha] = diagonals.getVectorNonConst(alpha);
@@ -57,16 +57,14 @@ MembraneMeasure::MembraneMeasure(const MembraneOperator& membranes) : count_(mem
 void MembraneMeasure::set(const MembraneOperator& membranes, const Rest& rest, const Teuchos::RCP<Vector>* body) {
   height_ = rest.height;
   size_ = rest.size;
-  std::array<double, 2> force = {0, 0}, stiffness = {0, 0};
+  std::array<double, 2> force = {0, 0};
   Vector acting(membranes.map()), on_gap(membranes.map());
-  for (int alpha = 0; alpha < count_; ++alpha) stiffness[alpha] = diagonal_[alpha]->norm1();
   for (int alpha = 0; alpha < count_; ++alpha) {
     acting.assign(*membranes.load(alpha));
     if (rest.u) membranes.apply(alpha, *rest.u->getVector(alpha), acting, -1, 1);
     force[alpha] = acting.norm2();
     if (body) force[alpha] = std::max(force[alpha], body[alpha]->norm2());
-    const double share = count_ == 1 ? 1 : stiffness[1 - alpha] / (stiffness[0] + stiffness[1]);
-    on_gap.update(alpha == 0 ? share : -share, acting, 1);
+    on_gap.update(alpha == 0 ? yields(0) : -yields(1), acting, 1);
   }
   const Vector on_closed = force_on_closed_gap(membranes, rest.reach);
   on_gap_ = on_closed.norm2();
@@ -118,7 +116,7 @@ Vector MembraneMeasure::force_on_closed_gap(const MembraneOperator& membranes, d
 /// u_1 = w + theta_2 z and u_2 = w - theta_1 z, w = theta_1 u_1 + theta_2 u_2, z = u_1 - u_2, are as steady as w and z: a membrane has the
 /// rounding of its own height, and of the other one's as far as it yields to it.
 double MembraneMeasure::carried(int alpha, const std::array<double, 2>& heights) const {
-  return count_ == 1 ? heights[0] : heights[alpha] + share_[1 - alpha] * heights[1 - alpha];
+  return count_ == 1 ? heights[0] : heights[alpha] + theta_[1 - alpha] * heights[1 - alpha];
 }
 
 double MembraneMeasure::on_gap(const std::array<double, 2>& forces) const {
@@ -131,7 +129,7 @@ std::array<double, 2> MembraneMeasure::rounded_forces(const MultiVector& u) cons
   for (int alpha = 0; alpha < count_; ++alpha) {
     const auto S = read(*diagonal_[alpha]);
     const int beta = count_ == 1 ? 0 : 1 - alpha;
-    const double share = count_ == 1 ? 0 : share_[beta];
+    const double share = count_ == 1 ? 0 : theta_[beta];
     double sum = 0;
     Kokkos::parallel_reduce(
         "thixis::membranes::round_off", Range(0, x.extent_int(0)),

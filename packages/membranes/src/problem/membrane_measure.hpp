@@ -59,14 +59,14 @@ class MembraneMeasure {
 
  private:
   void bound_by_gap(const Rest& rest, std::array<double, 2>& force) const;
-  double yields(int alpha) const { return count_ == 1 ? 1 : share_[1 - alpha]; }  ///< z gains so much of what acts on u_alpha
+  double yields(int alpha) const { return count_ == 1 ? 1 : theta_[1 - alpha]; }  ///< z gains so much of what acts on u_alpha
   algebra::Vector force_on_closed_gap(const MembraneOperator& membranes, double reach) const;
   double carried(int alpha, const std::array<double, 2>& heights) const;
 
   int count_;
   contact::Weights weights_;
   std::array<double, 2> height_ = {0, 0}, size_ = {0, 0};
-  std::array<double, 2> share_ = {1, 0};  ///< theta_alpha of each membrane; m = 1: (1, 0)
+  std::array<double, 2> theta_ = {1, 0};  ///< that of the operator; m = 1: (1, 0)
   double reference_ = 0, on_gap_ = 0;
   Teuchos::RCP<algebra::Vector> diagonal_[2];
   Teuchos::RCP<const algebra::Vector> stiffness_;

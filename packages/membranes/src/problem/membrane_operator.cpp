@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "thixis/bound/shares.hpp"
+
 namespace thixis::membranes {
 namespace {
 
@@ -94,11 +96,8 @@ MembraneOperator membrane_operator(const MembraneScene& scene, const method::Met
     membranes.system.load->getVectorNonConst(alpha)->update(1, *body[alpha], -1, held, 0);
   }
   if (scene.count == 2) {
-    membranes.theta = {0.5, 0.5};
-    if (space.map()->getGlobalNumElements() > 0) {
-      const double upper = mean_tension(membranes, 0), lower = mean_tension(membranes, 1);
-      membranes.theta = {upper / (upper + lower), lower / (upper + lower)};
-    }
+    const bool any = space.map()->getGlobalNumElements() > 0;
+    membranes.theta = any ? bound::shares(mean_tension(membranes, 0), mean_tension(membranes, 1)).of_mean : bound::Shares().of_mean;
   }
   membranes.system.constraint = constraint(space, membranes);
   if (scene.count == 1) {

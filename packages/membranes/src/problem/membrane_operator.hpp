@@ -17,7 +17,7 @@ namespace thixis::membranes {
 struct MembraneOperator {
   contact::System system;                        ///< its loads with the Dirichlet data moved to the right
   Teuchos::RCP<const algebra::Vector> obstacle;  ///< psi_l, on map(); null for m = 2
-  std::array<double, 2> theta = {0, 1};          ///< m = 2: theta_alpha, the part of S_alpha in S_1 + S_2, by their mean diagonals
+  std::array<double, 2> theta = {0, 1};          ///< m = 2: bound::Shares::of_mean, by the mean diagonals of S_alpha, without mass
 
   int count() const { return system.fields(); }
   algebra::MapPtr map() const { return system.map(); }               ///< of each u_alpha

@@ -1,5 +1,6 @@
 #include "scene/heights.hpp"
 
+#include "scene/point_list.hpp"
 #include "thixis/mesh/host.hpp"
 #include "thixis/scene/shifted.hpp"
 
@@ -8,15 +9,10 @@ namespace {
 
 /// Takes in the values at the vertices that are marked.
 void take(const scene::Field& field, const mesh::HostMesh& host, const std::vector<bool>& marked, double t, double& low, double& high) {
-  std::vector<double> x, y;
+  PointList at;
   for (std::size_t v = 0; v < marked.size(); ++v)
-    if (marked[v]) {
-      x.push_back(host.coordinates(v, 0));
-      y.push_back(host.coordinates(v, 1));
-    }
-  std::vector<double> values(x.size());
-  field.evaluate({x.size(), x.data(), y.data()}, t, values.data());
-  for (const double value : values) {
+    if (marked[v]) at.add(host.coordinates(v, 0), host.coordinates(v, 1));
+  for (const double value : at.evaluate(field, t)) {
     low = std::min(low, value);
     high = std::max(high, value);
   }

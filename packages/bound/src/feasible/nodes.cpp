@@ -1,6 +1,6 @@
-#include "feasible/shares.hpp"
+#include "feasible/nodes.hpp"
 
-#include <algorithm>
+#include "thixis/bound/shares.hpp"
 
 namespace thixis::bound {
 
@@ -11,14 +11,14 @@ ContinuousNodes nodes_of(const method::Space& space, const std::vector<bool>& di
   return nodes;
 }
 
-std::vector<double> shares(const method::Space& space, const ContinuousNodes& nodes, const std::array<scene::FieldPtr, 2>& tension) {
+std::vector<double> ways_of_upper(const method::Space& space, const ContinuousNodes& nodes, const std::array<scene::FieldPtr, 2>& tension) {
   const auto host = mesh::on_host(space.mesh());
   const auto of_cells = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), nodes.of_cells);
   const auto cells = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), space.cells());
   const auto& lattice = space.basis().lattice();
   const bool bernstein = space.basis().family() == reference::Family::bernstein;
   const std::size_t count = nodes.entries.size();
-  std::vector<double> x(count), y(count), mu[2];
+  std::vector<double> x(count), y(count);
   for (std::size_t e = 0; e < count; ++e) {
     x[e] = nodes.entries.point[e][0];
     y[e] = nodes.entries.point[e][1];
@@ -32,16 +32,7 @@ std::vector<double> shares(const method::Space& space, const ContinuousNodes& no
       x[of_cells(k, l)] = place[0];
       y[of_cells(k, l)] = place[1];
     }
-  for (int alpha = 0; alpha < 2; ++alpha) {
-    mu[alpha].resize(count);
-    tension[alpha]->evaluate({count, x.data(), y.data()}, 0, mu[alpha].data());
-  }
-  std::vector<double> share(count);
-  for (std::size_t e = 0; e < count; ++e) {
-    const double both = mu[0][e] + mu[1][e];
-    share[e] = both > 0 ? std::clamp(mu[1][e] / both, 0.0, 1.0) : 0.5;
-  }
-  return share;
+  return ways_of_upper(tension, x, y);
 }
 
 }  // namespace thixis::bound

@@ -10,6 +10,6 @@ namespace thixis::bound {
 ContinuousNodes nodes_of(const method::Space& space, const std::vector<bool>& dirichlet);
 
 /// theta_1 = mu_2/(mu_1 + mu_2) at the nodes; for Bernstein coefficients at the places of the regular lattice. Not collective.
-std::vector<double> shares(const method::Space& space, const ContinuousNodes& nodes, const std::array<scene::FieldPtr, 2>& tension);
+std::vector<double> ways_of_upper(const method::Space& space, const ContinuousNodes& nodes, const std::array<scene::FieldPtr, 2>& tension);
 
 }  // namespace thixis::bound
