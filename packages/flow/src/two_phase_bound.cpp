@@ -13,7 +13,6 @@ namespace {
 
 using algebra::Vector;
 using Range = Kokkos::RangePolicy<Vector::execution_space>;
-using FlowBoundaryKind;
 
 std::vector<bool> held_faces(const TwoPhaseOperator& flow) {
   const auto kind = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), flow.face_kind());

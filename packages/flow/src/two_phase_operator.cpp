@@ -12,7 +12,6 @@
 namespace thixis::flow {
 namespace {
 
-using FlowBoundaryKind;
 using algebra::Vector;
 
 constexpr double negligible = 1e-9;  // of the pressures of which that of the gas is the sum
