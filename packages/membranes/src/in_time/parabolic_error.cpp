@@ -86,7 +86,7 @@ std::unique_ptr<bound::StepBound> ParabolicEvolution::make_bound(double time) co
   const core::Region region("estimate set-up");
   auto contact = on_mesh_->contact_problem();
   contact.time = time;
-  return std::make_unique<bound::StepBound>(space(), contact, hierarchy_, finest(), friedrichs_);
+  return std::make_unique<bound::StepBound>(space(), contact, hierarchy_, finest_level(), friedrichs_);
 }
 
 }  // namespace thixis::membranes

@@ -78,7 +78,7 @@ class ParabolicEvolution final : public MembranesOnMesh<models::Evolution> {
   std::unique_ptr<bound::StepBound> make_bound(double time) const;
   void append(const std::vector<GlobalIndex>& marked);
   void go_to_finest();
-  int finest() const { return static_cast<int>(hierarchy_.levels.size()) - 1; }
+  int finest_level() const { return static_cast<int>(hierarchy_.levels.size()) - 1; }
   void replay(const output::StoredCheckpoint& stored);
   std::unique_ptr<MembraneLevel> make_level() const;
 

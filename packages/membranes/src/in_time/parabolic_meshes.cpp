@@ -60,7 +60,7 @@ Teuchos::RCP<Vector> ParabolicEvolution::refine(const std::vector<GlobalIndex>& 
   on_mesh_->move_to(t);
   restored_bound_.clear();
   const auto fine_X = on_mesh_->from_coarse(*on_coarse, X);
-  levels_->keep_from(finest());
+  levels_->keep_from(finest_level());
   bounded_ = bounded_ && coarse_bound;
   if (bounded_) {
     bound_ = make_bound(t);
@@ -78,7 +78,7 @@ void ParabolicEvolution::append(const std::vector<GlobalIndex>& marked) {
   for (LocalIndex K = 0; K < coarse.owned_cells; ++K)
     if (ids.count(coarse.cell_id[K]) > 0) cells.push_back(K);
   mesh::adapt(hierarchy_, cells);
-  marked_[finest()] = marked;
+  marked_[finest_level()] = marked;
 }
 
 /// Nothing of the mesh before is kept.
@@ -97,12 +97,12 @@ void ParabolicEvolution::replay(const output::StoredCheckpoint& stored) {
   for (int level = static_cast<int>(have); stored.size(marks_of(level)) >= 0; ++level) append(stored.fetch_list(marks_of(level)));
   if (hierarchy_.levels.size() == have) return;
   go_to_finest();
-  levels_->keep_from(finest());
+  levels_->keep_from(finest_level());
 }
 
 std::unique_ptr<MembraneLevel> ParabolicEvolution::make_level() const {
   const core::Region region("assembly");
-  return std::make_unique<MembraneLevel>(scene_, origin_, levels_, finest(), linear_);
+  return std::make_unique<MembraneLevel>(scene_, origin_, levels_, finest_level(), linear_);
 }
 
 }  // namespace thixis::membranes
