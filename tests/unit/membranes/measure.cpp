@@ -162,9 +162,9 @@ namespace {
 
 Heights heights_on(const mesh::Mesh& mesh, const char* g1, const char* g2) {
   models::SceneParams params{model::two, {}, {}};
-  params.data.emplace();
-  params.data->g1.text = g1;
-  params.data->g2.text = g2;
+  DataParams& data = of(params).data.emplace();
+  data.g1.text = g1;
+  data.g2.text = g2;
   return heights_of(membrane_scene(params), mesh, 0);
 }
 

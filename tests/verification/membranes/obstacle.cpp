@@ -26,7 +26,7 @@ drive::RunParams deck(const std::string& name, int refinements, const method::Me
 double radial_error(int level, const method::MethodParams& method) {
   auto params = obstacle("radial obstacle", level, method);
   params.mesh.generator = mesh::Generator::disk;
-  params.linear.solver = method.symmetric() ? algebra::SolverKind::cg : algebra::SolverKind::gmres;
+  params.linear.solver = method_of(method.name).symmetric(method) ? algebra::SolverKind::cg : algebra::SolverKind::gmres;
   params.linear.preconditioner = algebra::PreconditionerKind::ilu;
   const Solved run = solve(params);
   EXPECT_TRUE(run.outcome.solved) << run.outcome.finest.why;

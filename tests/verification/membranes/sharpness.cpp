@@ -17,7 +17,7 @@ Seen at_convergence(drive::RunParams params, const std::string& problem, int lev
   params.stopping.linear_tolerance = 1e-12;
   params.stopping.nonlinear_tolerance = 1e-11;
   if (level > 2 && (method.name != "fem" || level > 4)) {
-    params.linear.solver = method.symmetric() ? algebra::SolverKind::cg : algebra::SolverKind::gmres;
+    params.linear.solver = method_of(method.name).symmetric(method) ? algebra::SolverKind::cg : algebra::SolverKind::gmres;
     params.linear.preconditioner = algebra::PreconditionerKind::ilu;
     if (method.name == "fem") params.linear.preconditioner = algebra::PreconditionerKind::muelu;
   }
@@ -28,7 +28,7 @@ Seen at_convergence(drive::RunParams params, const std::string& problem, int lev
   EXPECT_GE(seen.effectivity(), 1) << where;
   // eta_lin holds the root of multiplier times gap: where GMRES or a matrix without symmetry leaves 1e-13 of it, 1e-6 is seen
   const double round_off = 1e-8 * run.outcome.energy_norm;  // the root of a unit in the last place of the gap
-  const bool exact = method.symmetric() && params.linear.solver == algebra::SolverKind::direct;
+  const bool exact = method_of(method.name).symmetric(method) && params.linear.solver == algebra::SolverKind::direct;
   EXPECT_LE(seen.eta.linearization, (exact ? 1e-9 : 1e-6) * seen.eta.discretization + round_off) << where;
   EXPECT_LE(seen.eta.algebraic, (exact ? 1e-7 : 1e-5) * seen.eta.discretization + round_off) << where;
   std::ofstream("bounds.csv", std::ios::app) << problem << ',' << name << ',' << level << ',' << seen.error << ',' << seen.eta.total << ','
