@@ -13,7 +13,7 @@ Parents::Parents(const Space& coarse, const Space& fine) : width_(coarse.compone
     const LocalIndex above = mesh.cell_parent[cells(k)];
     shape.push_back(mesh.cell_shape[cells(k)]);
     parent.push_back(above < 0 ? -1 : coarse.position(above));
-    in_place = in_place && parent.back() >= 0;
+    in_place = in_place && parent.back() >= 0 && parent.back() < coarse.mesh().owned_cells;
   }
   if (!mesh.comm.all(in_place)) {
     std::vector<GlobalIndex> ids;

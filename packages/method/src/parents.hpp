@@ -15,7 +15,7 @@ View<T*> on_device(const char* label, const std::vector<T>& host) {
 }
 
 /// The parents of the patch cells of a space, with the coefficients that a function of the coarse space has there: read in place where all
-/// parents are patch cells of the coarse mesh on the same rank, on every rank; else fetched from their owners.
+/// parents belong to the same rank, on every rank; else fetched from their owners, who alone know a multiplier of moments there.
 class Parents {
  public:
   /// Collective.
