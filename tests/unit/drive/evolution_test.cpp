@@ -3,10 +3,10 @@
 #include <cmath>
 #include <filesystem>
 
-#include "evolution_checkpoint.hpp"
 #include "falling.hpp"
 #include "registry.hpp"
-#include "step_control.hpp"
+#include "restart/evolution_checkpoint.hpp"
+#include "steps/step_control.hpp"
 #include "thixis/algebra/tpetra.hpp"
 #include "thixis/drive/evolve.hpp"
 #include "thixis/membranes/params.hpp"

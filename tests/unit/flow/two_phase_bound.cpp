@@ -4,8 +4,8 @@
 
 #include <cmath>
 
+#include "estimate/kernels.hpp"
 #include "flow_march.hpp"
-#include "two_phase_estimate_kernels.hpp"
 
 namespace thixis::flow {
 namespace {

@@ -3,10 +3,10 @@
 
 #include <functional>
 
+#include "problem/problem.hpp"
 #include "thixis/complementarity/newton.hpp"
 #include "thixis/flow/scene.hpp"
-#include "two_phase_problem.hpp"
-#include "two_phase_verifier.hpp"
+#include "verify/verifier.hpp"
 
 namespace thixis::flow {
 namespace {
