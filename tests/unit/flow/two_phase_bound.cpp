@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "estimate/kernels.hpp"
 #include "flow_march.hpp"
+#include "laws/settle.hpp"
 
 namespace thixis::flow {
 namespace {

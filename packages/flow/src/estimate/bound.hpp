@@ -1,9 +1,9 @@
 #pragma once
 #include <memory>
 
-#include "problem/problem.hpp"
-#include "thixis/complementarity/estimate.hpp"
-#include "thixis/flow/two_phase.hpp"
+#include "estimate/measure.hpp"
+#include "problem/jacobian.hpp"
+#include "problem/scales.hpp"
 
 namespace thixis::flow {
 
@@ -21,15 +21,11 @@ class TwoPhaseBound {
   void begin(const FlowStep& step, const algebra::Vector& before);
   /// The share of the step at X^{k,i}; `at`: where the system that X solves nearly was linearized, X null: nowhere, X solves none.
   /// Collective.
-  complementarity::Estimate operator()(const algebra::Vector& X, const TwoPhaseProblem::Linearization& at);
+  complementarity::Estimate operator()(const algebra::Vector& X, const Linearization& at);
 
   // Of the last estimate.
   models::StepErrors step_errors() const;
-  /// Of the owned cells. phase_transition: mean over the cell and the step of s_g^+ G^+/(H P_ref), which is large where gas comes or goes.
-  struct Cells {
-    fv::View<double*> discretization, linearization, algebraic, phase_transition;
-  };
-  const Cells& cells() const;
+  const CellParts& cells() const;
 
  private:
   struct Impl;

@@ -15,9 +15,9 @@ using algebra::Vector;
 constexpr double unsettled = 1e-2;  // by which iterates of the rule adaptive may leave the range of a state, in its units
 
 /// Size of the pressures that matter: the largest one at the beginning. Collective.
-double reference_pressure(const TwoPhaseOperator& flow, const Vector& X0) {
-  const double P = largest(flow, X0, pressure);
-  return P > 0 ? P : flow.laws().P_r;
+double reference_pressure(const TwoPhaseLaws& laws, const Vector& X0) {
+  const double P = largest(X0, pressure);
+  return P > 0 ? P : laws.P_r;
 }
 
 bool is_closed(const TwoPhaseScene& scene) {
@@ -32,7 +32,7 @@ TwoPhaseEvolution::TwoPhaseEvolution(fv::Grid grid, const TwoPhaseScene& scene, 
     : bound_params_(bound),
       flow_(std::move(grid), scene, seconds_per_unit),
       initial_(flow_.initial()),
-      problem_(flow_, FlowScales(flow_.laws(), reference_pressure(flow_, *initial_)), linear, initial_),
+      problem_(flow_, FlowScales(flow_.laws(), reference_pressure(flow_.laws(), *initial_)), linear, initial_),
       verifier_(flow_.grid(), scene, seconds_per_unit, problem_.scales().pressure),
       probes_(flow_.grid(), probes),
       owed_("thixis::flow::owed", flow_.grid().owned_cells),
@@ -81,7 +81,7 @@ bool TwoPhaseEvolution::start(Vector& X) const {
 
 /// Without gas and without a part of the boundary where it is given, the pressure of incompressible water has no level. Collective.
 void TwoPhaseEvolution::require_definite_pressure() const {
-  if (!closed_ || largest(flow_, *initial_, gas_saturation) > 0) return;
+  if (!closed_ || largest(*initial_, gas_saturation) > 0) return;
   throw core::InputError(
       "scene/flow/boundary: no part has kind = state and there is no gas in the beginning, so nothing says what the pressure is; write "
       "kind = state somewhere, or initial/s_g above 0 in some place.");
@@ -98,7 +98,7 @@ complementarity::Estimate TwoPhaseEvolution::estimate(const Vector& X) {
 
 models::CellEstimates TwoPhaseEvolution::cell_estimates() const {
   if (!bound_) return {};
-  const TwoPhaseBound::Cells& cells = bound_->cells();
+  const CellParts& cells = bound_->cells();
   return models::cell_estimates(cells.discretization, cells.linearization, cells.algebraic);
 }
 

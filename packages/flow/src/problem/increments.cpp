@@ -1,15 +1,14 @@
 #include "problem/increments.hpp"
 
 #include <algorithm>
-#include <cmath>
+
+#include "step/extremes.hpp"
+#include "step/vectors.hpp"
 
 namespace thixis::flow {
 namespace {
 
 using algebra::Vector;
-using Cells = Kokkos::RangePolicy<Vector::execution_space>;
-using In = decltype(std::declval<const Vector&>().getLocalViewDevice(Tpetra::Access::ReadOnly));
-using Out = decltype(std::declval<Vector&>().getLocalViewDevice(Tpetra::Access::ReadWrite));
 
 constexpr double most_saturation = 0.2;  // of one increment
 constexpr double most_growth = 10;       // of pressures and molar fractions
@@ -29,7 +28,7 @@ KOKKOS_INLINE_FUNCTION double end_of(const TwoPhaseLaws& laws, double s_g, doubl
 
 struct Left {
   algebra::Matrix::local_matrix_device_type A;
-  In r;
+  VectorIn r;
   KOKKOS_FUNCTION void operator()(LocalIndex i, double& largest) const {
     const auto row = A.rowConst(i);
     double entry = 0;
@@ -41,8 +40,8 @@ struct Left {
 struct Shorten {
   TwoPhaseLaws laws;
   double most_pressure, most_dissolved;
-  In x;
-  Out d;  ///< in and out
+  VectorIn x;
+  VectorOut d;  ///< in and out
 
   KOKKOS_FUNCTION void operator()(LocalIndex K, int& changed) const {
     const LocalIndex k = unknowns_per_cell * K;
@@ -58,25 +57,12 @@ struct Shorten {
   }
 };
 
-/// max |x_u| over the owned cells of all ranks.
-double largest(const Vector& X, Unknown u) {
-  const In x = X.getLocalViewDevice(Tpetra::Access::ReadOnly);
-  double most = 0;
-  Kokkos::parallel_reduce(
-      "thixis::flow::largest", Cells(0, x.extent_int(0) / unknowns_per_cell),
-      KOKKOS_LAMBDA(LocalIndex K, double& value) {
-        value = Kokkos::Experimental::fmax(value, Kokkos::Experimental::fabs(x(unknowns_per_cell * K + u, 0)));
-      },
-      Kokkos::Max<double>(most));
-  return algebra::comm_of(*X.getMap()).max(most);
-}
-
 }  // namespace
 
 double largest_left(const algebra::Matrix& A, const Vector& r) {
   double most = 0;
-  Kokkos::parallel_reduce("thixis::flow::largest_left", Cells(0, algebra::local_rows(A)),
-                          Left{A.getLocalMatrixDevice(), r.getLocalViewDevice(Tpetra::Access::ReadOnly)}, Kokkos::Max<double>(most));
+  Kokkos::parallel_reduce("thixis::flow::largest_left", Cells(0, algebra::local_rows(A)), Left{A.getLocalMatrixDevice(), read(r)},
+                          Kokkos::Max<double>(most));
   return algebra::comm_of(*A.getRowMap()).max(most);
 }
 
@@ -86,9 +72,7 @@ bool shortened(const TwoPhaseLaws& laws, const double unknown[unknowns_per_cell]
   const auto most = [&](Unknown u) { return most_growth * std::max(unknown[u], largest(X, u)); };
   int changed = 0;
   Kokkos::parallel_reduce("thixis::flow::shorten", Cells(0, static_cast<LocalIndex>(X.getLocalLength()) / unknowns_per_cell),
-                          Shorten{laws, most(pressure), most(dissolved), X.getLocalViewDevice(Tpetra::Access::ReadOnly),
-                                  dX.getLocalViewDevice(Tpetra::Access::ReadWrite)},
-                          changed);
+                          Shorten{laws, most(pressure), most(dissolved), read(X), write(dX)}, changed);
   return !algebra::comm_of(*X.getMap()).all(changed == 0);
 }
 

@@ -1,18 +1,12 @@
 #pragma once
-#include "step/operator.hpp"
+#include <optional>
+
+#include "problem/balancing.hpp"
+#include "problem/jacobian.hpp"
 #include "thixis/algebra/solver.hpp"
 #include "thixis/complementarity/problem.hpp"
 
 namespace thixis::flow {
-
-/// Sizes that make the equations and the increments of the unknowns numbers without unit, derived from the data.
-struct FlowScales {
-  double pressure;                    ///< P_ref [Pa]
-  double mass[components];            ///< phi rho_w, phi H P_ref [kg/m^3]
-  double unknown[unknowns_per_cell];  ///< of increments: 1, P_ref, H P_ref/beta_l
-
-  FlowScales(const TwoPhaseLaws& laws, double P_ref);
-};
 
 /// A step of two-phase flow as the nonlinear solver sees it (docs/methods/two_phase.md, 4): X = (s_g, P, chi) interlaced by cell,
 ///
@@ -27,13 +21,6 @@ struct FlowScales {
 /// linearized balances of both components to rounding, and shortens increments to where the laws resemble their tangents.
 class TwoPhaseProblem final : public complementarity::Problem {
  public:
-  /// Where the equations of the step were linearized last; X null: nowhere yet.
-  struct Linearization {
-    Teuchos::RCP<const algebra::Vector> X;
-    fv::View<PhaseState*> states;  ///< of all local cells
-    fv::View<FaceFlux*> fluxes;    ///< of all local faces
-  };
-
   /// `origin`: the state from which |B| counts X (rhs_norm).
   TwoPhaseProblem(const TwoPhaseOperator& flow, const FlowScales& scales, const algebra::LinearParams& params,
                   Teuchos::RCP<const algebra::Vector> origin);
@@ -47,6 +34,7 @@ class TwoPhaseProblem final : public complementarity::Problem {
   double round_off() const { return round_off_; }
   /// What X leaves of the balances of the owned cells, owed included [kg/m^3].
   fv::View<double* [components]> left(const algebra::Vector& X) const;
+  /// Where the equations of the step were linearized last.
   const Linearization& linearization() const { return at_; }
 
   algebra::MapPtr map() const override { return flow_.map(); }
@@ -65,31 +53,23 @@ class TwoPhaseProblem final : public complementarity::Problem {
 
   GlobalIndex nonzeros() const;
   /// A of the last `linearize`, for increments divided by scales().unknown.
-  const algebra::Matrix& matrix() const { return *A_; }
+  const algebra::Matrix& matrix() const { return *pattern_->matrix; }
 
  private:
   double brought_norm(double length) const;
   void set_weights(double in_place);
   FlowScales row_scales() const;
-  void set_pattern();
   void scale(algebra::Vector& X, bool up) const;
-  Teuchos::RCP<algebra::Vector> balancing_mode(int component) const;
   void sharpen(const algebra::Vector& B, algebra::Vector& Y, algebra::LinearReport& report) const;
-  void balance(const algebra::Vector& B, algebra::Vector& Y, double& residual) const;
 
   const TwoPhaseOperator& flow_;
   FlowScales scales_;
   Teuchos::RCP<const algebra::Vector> origin_;
-  double volume_ = 0;  ///< of all cells, on all ranks
-  bool open_;          ///< part of the boundary is of kind state
   FlowStep step_;
   double reference_norm_ = 0, round_off_ = 0, weight_[components] = {1, 1};
   Linearization at_;
-
-  fv::View<LocalIndex*> row_begin_;  ///< where the rows of a cell begin in the matrix
-  fv::View<LocalIndex*> own_;        ///< place of the cell among itself and its neighbours, in the order of their local indices
-  fv::View<LocalIndex*> place_;      ///< of the neighbour across each entry of Grid::cell_faces; -1 on the boundary
-  algebra::MatrixPtr A_;
+  Balancing balance_;
+  std::optional<Pattern> pattern_;  ///< with the matrix of the last linearization
   Teuchos::RCP<algebra::MultiVector> coordinates_;
   algebra::Solver solver_;
 };

@@ -3,14 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "step/vectors.hpp"
+
 namespace thixis::flow {
 namespace {
 
 using algebra::Vector;
-using Values = decltype(std::declval<const Vector&>().getLocalViewDevice(Tpetra::Access::ReadOnly));
 
 struct Largest {
-  Values x;
+  VectorIn x;
   int unknown;
   KOKKOS_FUNCTION void operator()(LocalIndex K, double& largest) const {
     const double value = x(unknowns_per_cell * K + unknown, 0), size = value < 0 ? -value : value;
@@ -20,7 +21,7 @@ struct Largest {
 
 /// Its left end, and the right one of its gas.
 struct Ends {
-  Values x;
+  VectorIn x;
   double trace;
   fv::View<LocalIndex**> cell_vertices;
   fv::View<double* [2]> vertex;
@@ -44,29 +45,36 @@ struct Range {
 
 }  // namespace
 
-double largest(const TwoPhaseOperator& flow, const Vector& X, Unknown u) {
+double largest(const Vector& X, Unknown u) {
   double size = 0;
-  Kokkos::parallel_reduce("thixis::flow::largest", Kokkos::RangePolicy<>(0, flow.grid().owned_cells),
-                          Largest{X.getLocalViewDevice(Tpetra::Access::ReadOnly), u}, Kokkos::Max<double>(size));
-  return flow.grid().comm.max(std::max(size, 0.0));
+  Kokkos::parallel_reduce("thixis::flow::largest", Cells(0, static_cast<LocalIndex>(X.getLocalLength()) / unknowns_per_cell),
+                          Largest{read(X), u}, Kokkos::Max<double>(size));
+  return algebra::comm_of(*X.getMap()).max(std::max(size, 0.0));
 }
 
 double right_end_of_gas(const TwoPhaseOperator& flow, const Vector& X, double trace) {
   const fv::Grid& grid = flow.grid();
   double left = 0, right = 0;
-  Kokkos::parallel_reduce("thixis::flow::ends", Kokkos::RangePolicy<>(0, grid.owned_cells),
-                          Ends{X.getLocalViewDevice(Tpetra::Access::ReadOnly), trace, grid.cell_vertices, grid.vertex},
+  Kokkos::parallel_reduce("thixis::flow::ends", Cells(0, grid.owned_cells), Ends{read(X), trace, grid.cell_vertices, grid.vertex},
                           Kokkos::Min<double>(left), Kokkos::Max<double>(right));
   left = grid.comm.min(left);
   return std::max(left, grid.comm.max(right));
+}
+
+double volume(const fv::Grid& grid) {
+  double sum = 0;
+  const auto of_cell = grid.volume;
+  Kokkos::parallel_reduce(
+      "thixis::flow::volume", Cells(0, grid.owned_cells), KOKKOS_LAMBDA(LocalIndex K, double& all) { all += of_cell(K); }, sum);
+  return grid.comm.sum(sum);
 }
 
 double squared_diagonal(const fv::Grid& grid) {
   double square = 0;
   for (int axis = 0; axis < 2; ++axis) {
     double low = 0, high = 0;
-    Kokkos::parallel_reduce("thixis::flow::range", Kokkos::RangePolicy<>(0, grid.vertices), Range{grid.vertex, axis},
-                            Kokkos::Min<double>(low), Kokkos::Max<double>(high));
+    Kokkos::parallel_reduce("thixis::flow::range", Cells(0, grid.vertices), Range{grid.vertex, axis}, Kokkos::Min<double>(low),
+                            Kokkos::Max<double>(high));
     square += std::pow(grid.comm.max(high) - grid.comm.min(low), 2);
   }
   return square;

@@ -3,10 +3,10 @@
 #include <cmath>
 #include <limits>
 
+#include "step/vectors.hpp"
+
 namespace thixis::flow {
 namespace {
-
-using Cells = Kokkos::RangePolicy<algebra::Vector::execution_space>;
 
 /// The faces around a cell, with |F|/|K|.
 struct Faces {

@@ -2,9 +2,10 @@
 #include <array>
 #include <vector>
 
-#include "thixis/flow/scene.hpp"
 #include "thixis/fv/host.hpp"
 #include "verify/findings.hpp"
+#include "verify/rock.hpp"
+#include "verify/scene_data.hpp"
 
 namespace thixis::flow {
 
@@ -26,27 +27,21 @@ class TwoPhaseVerifier {
                           const std::vector<Owed>& owed) const;
 
  private:
-  struct Cell;
-  struct Crossing;
-  struct Boundary;
-  double capillary(double s_g) const;
-  Cell cell(const State& U) const;
-  Crossing crossing(const Cell& A, const Cell& B, double distance, double down) const;
-  Boundary boundary(double begin, double end) const;
-  std::vector<Crossing> crossings(const std::vector<Cell>& cells, const Boundary& boundary) const;
-  std::array<std::vector<double>, 2> sources(double middle) const;
-  void judge_states(const std::vector<State>& after, const std::vector<Cell>& cells, FlowFindings& found) const;
-  void judge_balances(double tau, const std::vector<State>& before, const std::vector<Cell>& cells, const std::vector<Crossing>& across,
-                      const std::array<std::vector<double>, 2>& sources, const std::vector<Owed>& owed, FlowFindings& found) const;
-  void settle(FlowFindings& found) const;
+  struct Step;
+  struct Balance;
+  struct Sums;
+  using Balances = std::array<Balance, 2>;
+  std::vector<Crossing> crossings(const std::vector<VerifiedCell>& cells, const BoundaryData& boundary) const;
+  void judge_states(const std::vector<State>& after, const std::vector<VerifiedCell>& cells, FlowFindings& found) const;
+  void judge_balances(const Step& step, const std::vector<State>& before, const std::vector<Owed>& owed, FlowFindings& found) const;
+  Balance balance(const Step& step, LocalIndex K, int component, const VerifiedCell& was, double debt, Sums& sums) const;
+  void add_boundary(const Step& step, Sums& sums) const;
 
   const fv::Grid& grid_;
   fv::HostGrid on_host_;
   TwoPhaseScene scene_;
-  double seconds_per_unit_, P_ref_;
-  double H_, beta_l_, beta_g_;           ///< of the document
-  double S_e_line_ = 1, P_at_line_ = 0;  ///< P_cp is a line from there to s_g = 0
-  double a_ = 0, b_ = 0, meets_at_ = 0;  ///< of the quadratic law, up to this s_g
+  double seconds_per_unit_;
+  VerifiedRock rock_;
 };
 
 }  // namespace thixis::flow
