@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "estimated_model.hpp"
-#include "judge/verdict.hpp"
+#include "judge/verdict_at_rest.hpp"
 #include "thixis/algebra/tpetra.hpp"
 #include "thixis/core/timer.hpp"
 #include "thixis/drive/stationary.hpp"

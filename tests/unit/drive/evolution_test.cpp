@@ -5,7 +5,8 @@
 
 #include "falling.hpp"
 #include "registry.hpp"
-#include "restart/evolution_checkpoint.hpp"
+#include "restart/checkpoint.hpp"
+#include "restart/stored.hpp"
 #include "steps/step_control.hpp"
 #include "thixis/algebra/tpetra.hpp"
 #include "thixis/drive/evolve.hpp"

@@ -19,16 +19,14 @@ Observer Follow::observer() {
     observer.iterate = [this, every](const Position& at, const models::Discretization& discretization, const algebra::Vector& X) {
       if (at.newton_iterations % every == 0) save(at, discretization, X);
     };
-  // under the exact rule nobody looks at linear iterates, and none is formed, unless the user wants to see the estimate there
-  if (params_.stopping.rule != complementarity::StoppingRule::exact || params_.stopping.estimate.value_or(false))
-    observer.check = [this](const Progress& at) { history_.append(row(at)); };
+  if (sees_linear_iterates()) observer.check = [this](const Progress& at) { history_.append(row_of(at)); };
   observer.message = [](const std::string& sentence) { log::warn("{}", sentence); };
   return observer;
 }
 
 bool Follow::save(const Position& at, const models::Discretization& discretization, const algebra::Vector& X) const {
   const core::Region region("output");
-  return checkpoint_.write(discretization, X, at.level, stored_by(at, history_.rows(), seconds()));
+  return checkpoint_.write(discretization, X, at.level, stored_by(at, written()));
 }
 
 void Follow::begin_level(const mesh::Mesh& mesh, int level, const models::Sizes& sizes) const {
@@ -40,14 +38,14 @@ void Follow::begin_level(const mesh::Mesh& mesh, int level, const models::Sizes&
 
 void Follow::end_level(const Progress& at) {
   log::info("{:>6}{:>6}{:>41}{}", at.level, "end", "", estimate_columns(at.estimate));
-  history_.append(row(at));
+  history_.append(row_of(at));
 }
 
 void Follow::step(const Progress& at, const complementarity::NewtonRecord& record) {
   log::info("{:>6}{:>6}{:>8}{:>10}{:>10}{:>13.4e}{}{}", at.level, record.step, record.linear_iterations, record.active, record.changed,
             record.residual, estimate_columns(at.estimate),
             record.step_length < 1 ? fmt::format("   damped {:.2g}", record.step_length) : "");
-  history_.append(row(at));
+  history_.append(row_of(at));
 }
 
 void Follow::refined(int level, const std::vector<GlobalIndex>& marked) {
@@ -55,17 +53,14 @@ void Follow::refined(int level, const std::vector<GlobalIndex>& marked) {
   checkpoint_.refined(level, marked);
 }
 
-output::HistoryRow Follow::row(const Progress& at) const {
-  output::HistoryRow row;
+output::HistoryRow Follow::row_of(const Progress& at) const {
+  output::HistoryRow row = Follower::row(at.estimate, at.energy_error);
   row.level = at.level;
   row.newton = at.newton;
   row.linear = at.linear;
   row.active = at.active;
   row.changed = at.changed;
   row.residual = at.residual;
-  set_estimate(row, at.estimate);
-  row.energy_error = at.energy_error;
-  row.seconds = seconds();
   return row;
 }
 

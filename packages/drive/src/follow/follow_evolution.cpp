@@ -11,11 +11,8 @@ namespace thixis::drive {
 namespace log = core::log;
 
 FollowEvolution::FollowEvolution(const output::RunDirectory& directory, const RunParams& params, const models::Evolution& evolution,
-                                 const CheckpointFile& checkpoint, const Written& before, double first_time)
-    : params_(params),
-      checkpoint_(checkpoint),
-      before_(before),
-      history_(output::History::go_on(directory.history(), before.history_rows, evolution.comm(), params.output.history)),
+                                 CheckpointFile& checkpoint, const Written& before, double first_time)
+    : Follower(directory, params, evolution.comm(), checkpoint, before),
       last_frame_(before.frames > 0 ? before.last_frame : -1),
       first_time_(first_time),
       progress_("time") {
@@ -30,8 +27,7 @@ EvolutionObserver FollowEvolution::observer() {
   observer.newton = [this](const TimePosition& at, double end, const complementarity::NewtonRecord& record, std::optional<double> error) {
     newton(at, end, record, error);
   };
-  // under the exact rule nobody looks at linear iterates, and none is formed, unless the user wants to see the estimate there
-  if (params_.stopping.rule != complementarity::StoppingRule::exact || params_.stopping.estimate.value_or(false))
+  if (sees_linear_iterates())
     observer.check = [this](const TimePosition& at, double end, const complementarity::LinearRecord& record, std::optional<double> error) {
       check(at, end, record, error);
     };
@@ -60,14 +56,11 @@ void FollowEvolution::step(const StepRecord& record, const models::Evolution& ev
   if (at.step > 0) {
     log::info("{:>6}{:>13.6g}{:>11.4g}{:>8}{:>8}{:>10}{:>13.4e}{}", at.step, at.time, record.length, record.newton, record.linear,
               record.active.value_or(0), record.residual.value_or(0), estimate_columns(record.of_step));
-    output::HistoryRow row;
-    row.time_step = at.step;
-    row.time = at.time;
-    row.active = record.active;
-    row.energy_error = record.energy_error;
-    set_estimate(row, record.so_far);
-    row.seconds = seconds();
-    history_.append(row);
+    output::HistoryRow now = row(record.so_far, record.energy_error);
+    now.time_step = at.step;
+    now.time = at.time;
+    now.active = record.active;
+    history_.append(now);
   }
   estimated_ = record.of_step.has_value();
   if (series_) series_->append(at.time, evolution.series(X));
@@ -100,13 +93,11 @@ void FollowEvolution::finish(const models::Evolution& evolution, const Evolution
 
 void FollowEvolution::save(const TimePosition& at, double next_length, const models::Evolution& evolution, const algebra::Vector& X) const {
   const core::Region region("output");
-  Written written = before_;
-  written.history_rows = history_.rows();
-  if (series_) written.series_rows = series_->rows();
-  if (fields_) written.frames = fields_->frames();
-  written.last_frame = last_frame_;
-  written.seconds = seconds();
-  checkpoint_.write(evolution, X, 0, stored_by(at, next_length, written));
+  Written so_far = written();
+  if (series_) so_far.series_rows = series_->rows();
+  if (fields_) so_far.frames = fields_->frames();
+  so_far.last_frame = last_frame_;
+  checkpoint_.write(evolution, X, 0, stored_by(at, next_length, so_far));
 }
 
 std::string FollowEvolution::stop(const TimePosition& at, double next_length, const models::Evolution& evolution,
@@ -127,25 +118,22 @@ void FollowEvolution::retry(const TimePosition& at, double length, const std::st
 
 output::HistoryRow FollowEvolution::row_within(const TimePosition& at, double end, int newton, int linear, double residual,
                                                const std::optional<complementarity::Estimate>& eta, std::optional<double> error) const {
-  output::HistoryRow row;
-  row.time_step = at.step + 1;
-  row.time = end;
-  row.newton = newton;
-  row.linear = linear;
-  row.residual = residual;
-  set_estimate(row, eta);
-  row.energy_error = error;
-  row.seconds = seconds();
-  return row;
+  output::HistoryRow within = row(eta, error);
+  within.time_step = at.step + 1;
+  within.time = end;
+  within.newton = newton;
+  within.linear = linear;
+  within.residual = residual;
+  return within;
 }
 
 void FollowEvolution::newton(const TimePosition& at, double end, const complementarity::NewtonRecord& record, std::optional<double> error) {
   log::detail("{:>10} {:>3}{:>38}{:>10}{:>13.4e}{}", "Newton", record.step, record.linear_iterations, record.active, record.residual,
               estimate_columns(record.estimate));
-  output::HistoryRow row = row_within(at, end, record.step, record.linear_iterations, record.residual, record.estimate, error);
-  row.active = record.active;
-  row.changed = record.changed;
-  history_.append(row);
+  output::HistoryRow within = row_within(at, end, record.step, record.linear_iterations, record.residual, record.estimate, error);
+  within.active = record.active;
+  within.changed = record.changed;
+  history_.append(within);
 }
 
 void FollowEvolution::check(const TimePosition& at, double end, const complementarity::LinearRecord& record, std::optional<double> error) {

@@ -1,21 +1,18 @@
 #pragma once
-#include "restart/evolution_checkpoint.hpp"
+#include "follow/follower.hpp"
 #include "thixis/core/log.hpp"
-#include "thixis/core/timer.hpp"
-#include "thixis/output/directory.hpp"
 #include "thixis/output/fields.hpp"
-#include "thixis/output/history.hpp"
 #include "thixis/output/series.hpp"
 
 namespace thixis::drive {
 
 /// The log's table of time steps, history, series, fields and checkpoints follow a run in time.
-class FollowEvolution {
+class FollowEvolution : public Follower {
  public:
   /// `before`: what an interrupted run has left in this directory, of which the rows and frames up to its checkpoint stay; zeros: a new
   /// one. Collective.
   FollowEvolution(const output::RunDirectory& directory, const RunParams& params, const models::Evolution& evolution,
-                  const CheckpointFile& checkpoint, const Written& before, double first_time);
+                  CheckpointFile& checkpoint, const Written& before, double first_time);
 
   EvolutionObserver observer();
   /// Fields of the last state, unless they are there already; closes the series of fields.
@@ -23,7 +20,6 @@ class FollowEvolution {
   void save(const TimePosition& at, double next_length, const models::Evolution& evolution, const algebra::Vector& X) const;
 
  private:
-  double seconds() const { return before_.seconds + clock_.seconds(); }
   void begin_table() const;
   void step(const StepRecord& record, const models::Evolution& evolution, const algebra::Vector& X,
             const complementarity::ActiveSet& active);
@@ -36,17 +32,12 @@ class FollowEvolution {
   std::string stop(const TimePosition& at, double next_length, const models::Evolution& evolution, const algebra::Vector& X);
   void show(int step, double time, const models::Evolution& evolution, const algebra::Vector& X, const complementarity::ActiveSet& active);
 
-  const RunParams& params_;
-  const CheckpointFile& checkpoint_;
-  Written before_;
-  output::History history_;
   std::optional<output::Series> series_;       ///< where the scene has one
   std::optional<output::FieldWriter> fields_;  ///< where fields are asked for
   int last_frame_;                             ///< the step of the last frame; -1: none
   int saved_step_ = 0;                         ///< of the last checkpoint that was due
   bool estimated_ = false;                     ///< the last step
   double first_time_;
-  core::Stopwatch clock_;
   core::log::Progress progress_;
 };
 

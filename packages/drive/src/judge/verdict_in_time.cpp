@@ -32,17 +32,12 @@ std::string qualities(const RunParams& params, const models::Evolution& evolutio
   }
   for (const models::Balance& balance : evolution.balances())
     clauses += fmt::format("; {} balanced to {:.1e} in every step", balance.name, balance.worst_step);
-  if (outcome.kkt) {
-    const bool judged = params.stopping.rule != complementarity::StoppingRule::adaptive;
-    const char* unjudged = judged || outcome.kkt->holds(outcome.kkt_tolerance) ? "" : ", which the rule adaptive does not judge";
-    clauses += fmt::format("; contact conditions hold to {:.1e}{}", outcome.kkt->worst(), unjudged);
-  }
+  if (outcome.kkt) clauses += "; " + contact_clause(*outcome.kkt, outcome.kkt_tolerance);
   return clauses;
 }
 
 std::string effort(const TimePosition& at) {
-  return fmt::format("{} time step{}, {} Newton step{} and {} Krylov iteration{}", at.step, at.step == 1 ? "" : "s", at.newton_iterations,
-                     at.newton_iterations == 1 ? "" : "s", at.linear_iterations, at.linear_iterations == 1 ? "" : "s") +
+  return fmt::format("{} time step{}, {}", at.step, at.step == 1 ? "" : "s", effort_clause(at)) +
          (at.retries > 0 ? fmt::format(" ({} attempt{} given up)", at.retries, at.retries == 1 ? "" : "s") : "");
 }
 
@@ -59,9 +54,7 @@ std::string mistaken(const RunParams& params, const core::Deck& deck, const Evol
 
 std::string failed(const RunParams& params, const EvolutionOutcome& outcome) {
   if (!outcome.solved) return "not converged: " + outcome.why;
-  if (params.stopping.rule != complementarity::StoppingRule::adaptive && outcome.kkt && !outcome.kkt->holds(outcome.kkt_tolerance))
-    return not_in_contact(outcome.last, *outcome.kkt, outcome.kkt_tolerance);
-  return "";
+  return not_in_contact(params, outcome.last, outcome.kkt, outcome.kkt_tolerance);
 }
 
 std::string target_missed(const RunParams& params, const models::Evolution& evolution, const EvolutionOutcome& outcome) {

@@ -1,8 +1,6 @@
 #include "levels/level_solver.hpp"
 
-#include <cmath>
-
-#include "restart/checkpoint.hpp"
+#include "restart/stored.hpp"
 #include "thixis/algebra/tpetra.hpp"
 #include "thixis/core/timer.hpp"
 
@@ -10,8 +8,8 @@ namespace thixis::drive {
 
 LevelSolver::LevelSolver(const models::StationaryModel& model, const mesh::Hierarchy& hierarchy, const RunParams& params,
                          const Observer& observer, const output::StoredCheckpoint* stored)
-    : model_(model), hierarchy_(hierarchy), params_(params), observer_(observer), stored_(stored) {
-  if (stored) outcome_.at = position_of(*stored);
+    : model_(model), hierarchy_(hierarchy), params_(params), observer_(observer), stored_(stored), look_(params.output) {
+  if (stored) outcome_.at = stored_iterate(*stored).at;
   outcome_.not_wanted = params.newton.max_iterations == 0;
   if (outcome_.not_wanted) stored_ = nullptr;
 }
@@ -53,26 +51,14 @@ void LevelSolver::run_newton() {
   if (!newton.sweeps) newton.sweeps = nested ? discretization.sweeps() : 0;
   const int linear_before = outcome_.at.linear_iterations;
   outcome_.finest = complementarity::newton(discretization.problem(), *outcome_.X, newton, params_.stopping, params_.linear.check_every,
-                                            on_level(), [this](const algebra::Vector& X) { return look(X); });
+                                            on_level(), [this](const algebra::Vector& X) { return look_(*outcome_.discretization, X); });
   outcome_.at.linear_iterations = linear_before + outcome_.finest.linear_iterations;  // those of a step that failed, too
   outcome_.solved = outcome_.finest.converged;
 }
 
-/// The estimate at an iterate, and, for the history, its error.
-complementarity::Estimate LevelSolver::look(const algebra::Vector& X) {
-  const auto estimate = outcome_.discretization->estimate(X);
-  const core::Region region("verification");
-  if (params_.output.history) error_at_look_ = outcome_.discretization->energy_error(X);
-  return estimate;
-}
-
 /// Once at the end of a level, unless Newton has done it.
 void LevelSolver::estimate() {
-  outcome_.estimate = outcome_.finest.estimate;
-  if (!outcome_.estimate && std::isfinite(algebra::norm2(*outcome_.X))) {
-    const core::Region region("estimate");
-    outcome_.estimate = outcome_.discretization->estimate(*outcome_.X);
-  }
+  outcome_.estimate = estimate_at_end(*outcome_.discretization, outcome_.finest, *outcome_.X);
   {
     const core::Region region("verification");
     outcome_.energy_error = outcome_.discretization->energy_error(*outcome_.X);
@@ -113,14 +99,14 @@ complementarity::NewtonObserver LevelSolver::on_level() {
     at.linear_iterations += record.linear_iterations;
     if (observer_.step)
       observer_.step({at.level, record.step, record.linear_iterations, record.active, record.changed, record.residual,
-                      record.estimate ? error_at_look_ : std::nullopt, record.estimate},
+                      look_.error(record.estimate), record.estimate},
                      record);
   };
   if (observer_.iterate) newton.iterate = [&at, this](const algebra::Vector& X) { observer_.iterate(at, *outcome_.discretization, X); };
   if (observer_.check)
     newton.linear = [before, &at, this](const complementarity::LinearRecord& record) {
       observer_.check({at.level, before + record.step, record.iteration, std::nullopt, std::nullopt, record.residual,
-                       record.estimate ? error_at_look_ : std::nullopt, record.estimate});
+                       look_.error(record.estimate), record.estimate});
     };
   return newton;
 }

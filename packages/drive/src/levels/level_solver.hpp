@@ -1,4 +1,5 @@
 #pragma once
+#include "look/look.hpp"
 #include "thixis/drive/stationary.hpp"
 
 namespace thixis::drive {
@@ -29,7 +30,6 @@ class LevelSolver {
   void set_mesh(int level);
   void estimate();
   complementarity::NewtonObserver on_level();
-  complementarity::Estimate look(const algebra::Vector& X);
 
   const models::StationaryModel& model_;
   const mesh::Hierarchy& hierarchy_;
@@ -37,7 +37,7 @@ class LevelSolver {
   const Observer& observer_;
   const output::StoredCheckpoint* stored_;
   Outcome outcome_;
-  std::optional<double> error_at_look_;  ///< energy error where the estimate was asked for last
+  Look look_;
 
   /// A solution without its discretization.
   struct Kept {

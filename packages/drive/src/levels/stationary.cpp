@@ -1,7 +1,5 @@
 #include "thixis/drive/stationary.hpp"
 
-#include <cmath>
-
 #include "checks/wanted.hpp"
 #include "levels/adaptive.hpp"
 #include "thixis/algebra/tpetra.hpp"
@@ -20,16 +18,16 @@ void verify(Outcome& outcome, const RunParams& params, const models::Model& mode
   }
   const core::Region region("verification");
   const auto kkt_data = discretization.kkt_data(*outcome.X);
-  const complementarity::Problem& problem = discretization.problem();
-  const double residual = params.stopping.nonlinear_residual(problem.reference_norm(), problem.noise(*outcome.X));
   outcome.kkt = complementarity::verify(kkt_data);
-  outcome.kkt_tolerance = params.stopping.kkt_tolerance.value_or(kkt_data.allowed(residual));
+  outcome.kkt_tolerance = kkt_tolerance(discretization, params.stopping, kkt_data, *outcome.X);
   if (!params.estimated()) outcome.energy_error = discretization.energy_error(*outcome.X);
   outcome.energy_norm = discretization.energy_norm(*outcome.X);
   outcome.rounding = discretization.rounding(*outcome.X);
   outcome.contact = discretization.contact(*outcome.X);
   if (!params.expect.at.empty())
     outcome.at_points = values_by_name(params.expect, model.point_fields(), discretization.values_at(wanted(params).expected, *outcome.X));
+  outcome.of_model = discretization.expectations(params.expect, *outcome.X);
+  outcome.summary = discretization.summary(*outcome.X);
 }
 
 }  // namespace

@@ -65,14 +65,6 @@ bool CheckpointFile::write(const models::SceneOnMesh& scene, const algebra::Vect
   return true;
 }
 
-std::map<std::string, double> stored_by(const Position& at, GlobalIndex history_rows, double seconds) {
-  return {{"newton_on_level", at.newton_on_level},
-          {"newton_iterations", at.newton_iterations},
-          {"linear_iterations", at.linear_iterations},
-          {"history_rows", static_cast<double>(history_rows)},
-          {"seconds", seconds}};
-}
-
 void replay(const output::StoredCheckpoint& stored, mesh::Hierarchy& hierarchy, CheckpointFile& checkpoint) {
   const core::Region region("mesh");
   for (auto level = static_cast<int>(hierarchy.levels.size()); level <= stored.level(); ++level) {
@@ -82,13 +74,6 @@ void replay(const output::StoredCheckpoint& stored, mesh::Hierarchy& hierarchy, 
     checkpoint.refined(level, marked);
   }
 }
-
-Position position_of(const output::StoredCheckpoint& stored) {
-  const auto count = [&](const char* name) { return static_cast<int>(stored.count(name)); };
-  return {stored.level(), count("newton_on_level"), count("newton_iterations"), count("linear_iterations")};
-}
-GlobalIndex history_rows_of(const output::StoredCheckpoint& stored) { return stored.count("history_rows", most_rows); }
-double seconds_of(const output::StoredCheckpoint& stored) { return stored.number("seconds", 0); }
 
 void say_differences(const output::StoredCheckpoint& stored, const RunParams& params) {
   RunParams before = core::Deck::from_text(stored.deck(), stored.path()).parse(params.catalogue->schema());

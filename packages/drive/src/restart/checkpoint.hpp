@@ -2,7 +2,9 @@
 #include <map>
 
 #include "thixis/core/deck.hpp"
-#include "thixis/drive/stationary.hpp"
+#include "thixis/drive/params.hpp"
+#include "thixis/mesh/build.hpp"
+#include "thixis/models/scene_on_mesh.hpp"
 #include "thixis/output/checkpoint.hpp"
 
 namespace thixis::drive {
@@ -28,19 +30,12 @@ class CheckpointFile {
   std::map<int, std::vector<GlobalIndex>> marked_;  ///< by the level that came from it
 };
 
-/// What a run at rest stores beside the iterate. `history_rows`, `seconds`: rows of history.csv and wall clock so far.
-std::map<std::string, double> stored_by(const Position& at, GlobalIndex history_rows, double seconds);
-
 /// Appends the meshes that adaptivity had added to those of the deck before the checkpoint was written, and tells `checkpoint` so.
 /// Collective.
 void replay(const output::StoredCheckpoint& stored, mesh::Hierarchy& hierarchy, CheckpointFile& checkpoint);
 
-/// What a checkpoint knows beside the iterate.
-Position position_of(const output::StoredCheckpoint& stored);
 /// Says in the log which parameters of the deck are not those of the checkpoint; a warning where they change what is solved.
 void say_differences(const output::StoredCheckpoint& stored, const RunParams& params);
-GlobalIndex history_rows_of(const output::StoredCheckpoint& stored);
-double seconds_of(const output::StoredCheckpoint& stored);
 
 /// Whether the run that left the checkpoint wrote into this directory, or the checkpoint lies in it (results that were moved).
 bool same_directory(const output::StoredCheckpoint& stored, const RunParams& params, const std::string& directory);

@@ -7,9 +7,9 @@
 
 #include "checks/sizes.hpp"
 #include "follow/follow.hpp"
-#include "restart/checkpoint.hpp"
+#include "judge/verdict_at_rest.hpp"
+#include "run/frame.hpp"
 #include "thixis/algebra/tpetra.hpp"
-#include "thixis/core/log.hpp"
 #include "thixis/core/timer.hpp"
 #include "thixis/drive/run.hpp"
 #include "thixis/output/probes.hpp"
@@ -18,12 +18,10 @@ namespace thixis::drive {
 namespace {
 
 using core::ExitCode;
-namespace log = core::log;
 
 /// Where a restart goes on from.
-void say_where(const output::StoredCheckpoint& stored) {
-  const Position from = position_of(stored);
-  log::info("goes on from level {}, Newton step {} ({} steps on all levels)", from.level, from.newton_on_level, from.newton_iterations);
+std::string place_of(const Position& from) {
+  return fmt::format("level {}, Newton step {} ({} steps on all levels)", from.level, from.newton_on_level, from.newton_iterations);
 }
 
 /// How to go on, as a command: with more steps where those were too few.
@@ -54,55 +52,48 @@ void write_probes(const output::RunDirectory& directory, const models::Model& mo
   output::write_probes(directory.probes(), points, model.point_fields(), outcome.discretization->values_at(probes, *outcome.X), comm);
 }
 
-}  // namespace
-
-core::ExitCode run_stationary(const RunParams& params, const models::StationaryModel& model, const core::Deck& deck, const core::Comm& comm,
-                              const Versions& versions, const output::StoredCheckpoint* stored) {
-  const core::Stopwatch clock;
+/// The meshes of the deck. What is wrong in the scene on one of them shows here, before anything is written.
+mesh::Hierarchy checked_meshes(const RunParams& params, const models::StationaryModel& model, const models::Wanted& asked,
+                               const core::Deck& deck, const core::Comm& comm) {
   mesh::Hierarchy hierarchy;
   {
     const core::Region region("mesh");
     hierarchy = mesh::build(params.mesh, comm, deck.folder());
   }
   require_memory(params, static_cast<double>(hierarchy.finest().global_cells), comm);
-  // what is wrong in the scene on this mesh shows here, before anything is written
   const bool nested = params.newton.start == complementarity::Start::nested;
-  const models::Wanted asked = wanted(params);
   for (const auto& mesh : hierarchy.levels) {
     if (&mesh == &hierarchy.finest()) model.check(mesh, asked);
     else if (nested) model.check(mesh, {asked.fields, {}, {}});
   }
+  return hierarchy;
+}
 
-  output::RunDirectory directory(params.output.directory);
-  CheckpointFile checkpoint(directory.checkpoint(), params, deck);
+}  // namespace
+
+core::ExitCode run_stationary(const RunParams& params, const models::StationaryModel& model, const core::Deck& deck, const core::Comm& comm,
+                              const Versions& versions, const output::StoredCheckpoint* stored) {
+  Frame frame(params, model, deck, comm, versions, stored);
+  const models::Wanted asked = wanted(params);
+  mesh::Hierarchy hierarchy = checked_meshes(params, model, asked, deck, comm);
   if (stored) {
-    replay(*stored, hierarchy, checkpoint);
+    replay(*stored, hierarchy, frame.checkpoint());
     check_restart(*stored, params, hierarchy);
   }
-  const bool goes_on = stored && same_directory(*stored, params, directory.path());
-  open(directory, params, deck, goes_on, comm);
-  introduce(deck, model, comm, versions);
-  if (stored) {
-    say_where(*stored);
-    say_differences(*stored, params);
-  }
-  if (!goes_on) remove_file(checkpoint.path(), comm);
+  const StoredIterate from = stored ? stored_iterate(*stored) : StoredIterate{};
+  frame.begin(place_of(from.at));
 
-  output::History history =
-      output::History::go_on(directory.history(), goes_on ? history_rows_of(*stored) : 0, comm, params.output.history);
-  Follow follow(history, checkpoint, params, stored ? seconds_of(*stored) : 0);
+  Follow follow(frame.directory(), params, comm, frame.checkpoint(), frame.before(from.written));
   const Outcome outcome = solve_stationary(model, hierarchy, params, follow.observer(), stored);
-  const Verdict verdict = judge(params, outcome);
-  const bool to_be_kept = verdict.code == ExitCode::not_converged || (params.output.checkpoint_every > 0 && !outcome.not_wanted);
+  const Found seen = found(outcome);
+  const Verdict verdict = judge(ending(params, outcome), missed(params.expect, seen));
+  const bool failed = verdict.code == ExitCode::not_converged;
+  const bool to_be_kept = failed || (params.output.checkpoint_every > 0 && !outcome.not_wanted);
   const bool kept = to_be_kept && follow.save(outcome.at, *outcome.discretization, *outcome.X);
 
-  if (!outcome.not_wanted && !params.output.no_fields()) write_fields(directory, params.output, outcome, comm);
-  if (!outcome.not_wanted && !asked.probes.empty()) write_probes(directory, model, asked.probes, outcome, comm);
-  const Found seen = found(outcome);
-  summarize(params, model, seen, verdict, comm, clock.seconds(), versions).write(directory.summary(), comm);
-  say_doubts(seen.estimate, seen.doubts);
-  const bool invite = kept && verdict.code == ExitCode::not_converged;
-  return conclude(directory, verdict, invite ? invitation(checkpoint.path(), params, outcome) : "", comm, clock.seconds());
+  if (!outcome.not_wanted && !params.output.no_fields()) write_fields(frame.directory(), params.output, outcome, comm);
+  if (!outcome.not_wanted && !asked.probes.empty()) write_probes(frame.directory(), model, asked.probes, outcome, comm);
+  return frame.end(seen, verdict, kept && failed ? invitation(frame.checkpoint().path(), params, outcome) : "");
 }
 
 }  // namespace thixis::drive

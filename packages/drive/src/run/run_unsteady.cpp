@@ -8,7 +8,7 @@
 #include "follow/interrupt.hpp"
 #include "judge/expectations.hpp"
 #include "judge/verdict_in_time.hpp"
-#include "restart/checkpoint.hpp"
+#include "run/frame.hpp"
 #include "steps/step_control.hpp"
 #include "thixis/algebra/tpetra.hpp"
 #include "thixis/core/text.hpp"
@@ -18,11 +18,11 @@
 namespace thixis::drive {
 namespace {
 
-using core::ExitCode;
 namespace log = core::log;
 
-void say_where(const TimePosition& from) {
-  log::info("goes on from time {:.6g}, behind step {} ({} Newton steps so far)", from.time, from.step, from.newton_iterations);
+/// Where a restart goes on from.
+std::string place_of(const TimePosition& from) {
+  return fmt::format("time {:.6g}, behind step {} ({} Newton steps so far)", from.time, from.step, from.newton_iterations);
 }
 
 /// Behind steps without estimate no bound can be had; a rule or a step control that only looks at the steps to come may still use theirs.
@@ -61,54 +61,44 @@ std::string invitation(const std::string& checkpoint, const EvolutionOutcome& ou
                      outcome.mistake.empty() ? "" : " --set PATH=VALUE");
 }
 
+/// The scene on the mesh of the deck. What is wrong in it there shows here, before anything is written.
+std::unique_ptr<models::Evolution> on_mesh(const RunParams& params, const models::UnsteadyModel& model, const core::Deck& deck,
+                                           const core::Comm& comm) {
+  const core::Region region("mesh");
+  return model.evolve(params.mesh, comm, deck.folder(), wanted(params));
+}
+
+/// Step by step, with the files that follow; `invite`: how to go on where the end was not reached.
+EvolutionOutcome followed(Frame& frame, models::Evolution& evolution, const RunParams& params, const StoredEvolution& from,
+                          const output::StoredCheckpoint* stored, std::string& invite) {
+  const Interrupt listens;
+  FollowEvolution follow(frame.directory(), params, evolution, frame.checkpoint(), frame.before(from.written), from.at.time);
+  EvolutionOutcome outcome = evolve(evolution, params, follow.observer(), stored);
+  const bool failed = outcome.stopped.empty() && !outcome.solved;
+  if (failed || (outcome.solved && params.output.checkpoint_every > 0)) follow.save(outcome.at, outcome.next_length, evolution, *outcome.X);
+  if (!outcome.solved) invite = invitation(frame.checkpoint().path(), outcome);
+  follow.finish(evolution, outcome);
+  return outcome;
+}
+
 }  // namespace
 
 core::ExitCode run_unsteady(const RunParams& params, const models::UnsteadyModel& model, const core::Deck& deck, const core::Comm& comm,
                             const Versions& versions, const output::StoredCheckpoint* stored) {
-  const core::Stopwatch clock;
-  // what is wrong in the scene on this mesh shows here, before anything is written
-  std::unique_ptr<models::Evolution> evolution;
-  {
-    const core::Region region("mesh");
-    evolution = model.evolve(params.mesh, comm, deck.folder(), wanted(params));
-  }
-  output::RunDirectory directory(params.output.directory);
-  const CheckpointFile checkpoint(directory.checkpoint(), params, deck);
-  const bool goes_on = stored && same_directory(*stored, params, directory.path());
+  Frame frame(params, model, deck, comm, versions, stored);
+  const auto evolution = on_mesh(params, model, deck, comm);
   const StoredEvolution from = stored ? stored_evolution(*stored) : StoredEvolution{};
-  if (stored) check_restart(*stored, from, params, goes_on, *evolution);
+  if (stored) check_restart(*stored, from, params, frame.goes_on(), *evolution);
   evolution->check(known_times(*params.time, evolution->jumps(), from.at.time));
-  open(directory, params, deck, goes_on, comm);
-  introduce(deck, model, comm, versions);
-  if (stored) {
-    say_where(from.at);
-    say_differences(*stored, params);
-  }
-  log::info("{} cells, {} unknowns ({} in the linear system)", evolution->cells(), evolution->sizes().unknowns_all,
-            evolution->sizes().unknowns_global);
-  if (!goes_on) remove_file(checkpoint.path(), comm);
+  frame.begin(place_of(from.at));
+  const models::Sizes sizes = evolution->sizes();
+  log::info("{} cells, {} unknowns ({} in the linear system)", evolution->cells(), sizes.unknowns_all, sizes.unknowns_global);
 
-  EvolutionOutcome outcome;
   std::string invite;
-  if (params.newton.max_iterations == 0) {
-    outcome = evolve(*evolution, params, {});
-  } else {
-    const Interrupt listens;
-    Written before = goes_on ? from.written : Written{};
-    before.seconds = from.written.seconds;
-    FollowEvolution follow(directory, params, *evolution, checkpoint, before, from.at.time);
-    outcome = evolve(*evolution, params, follow.observer(), stored);
-    const bool failed = outcome.stopped.empty() && !outcome.solved;
-    if (failed || (outcome.solved && params.output.checkpoint_every > 0))
-      follow.save(outcome.at, outcome.next_length, *evolution, *outcome.X);
-    if (!outcome.solved) invite = invitation(checkpoint.path(), outcome);
-    follow.finish(*evolution, outcome);
-  }
+  const bool only_counts = params.newton.max_iterations == 0;
+  const EvolutionOutcome outcome = only_counts ? evolve(*evolution, params, {}) : followed(frame, *evolution, params, from, stored, invite);
   const Found seen = found(params, model, *evolution, outcome);
-  const Verdict verdict = judge(ending(params, *evolution, deck, outcome), missed(params.expect, seen));
-  summarize(params, model, seen, verdict, comm, clock.seconds(), versions).write(directory.summary(), comm);
-  if (!outcome.not_wanted) say_doubts(seen.estimate, seen.doubts);
-  return conclude(directory, verdict, invite, comm, clock.seconds());
+  return frame.end(seen, judge(ending(params, *evolution, deck, outcome), missed(params.expect, seen)), invite);
 }
 
 }  // namespace thixis::drive

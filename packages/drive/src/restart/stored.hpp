@@ -1,11 +1,14 @@
 #pragma once
-#include "restart/checkpoint.hpp"
+#include <map>
+#include <string>
+
 #include "thixis/drive/evolve.hpp"
+#include "thixis/drive/stationary.hpp"
 #include "thixis/output/checkpoint.hpp"
 
 namespace thixis::drive {
 
-/// What a run in time has written and spent so far.
+/// What a run has written and spent so far; series and fields in time alone.
 struct Written {
   GlobalIndex history_rows = 0, series_rows = 0;
   int frames = 0;      ///< of the fields
@@ -13,8 +16,16 @@ struct Written {
   double seconds = 0;
 };
 
-/// What a run in time stores beside the state of the scene, between two steps.
+/// What a run stores beside the state of the scene: at rest with an iterate, in time between two steps.
+std::map<std::string, double> stored_by(const Position& at, const Written& written);
 std::map<std::string, double> stored_by(const TimePosition& at, double next_length, const Written& written);
+
+/// What the checkpoint of a run at rest knows beside the iterate.
+struct StoredIterate {
+  Position at;
+  Written written;
+};
+StoredIterate stored_iterate(const output::StoredCheckpoint& stored);
 
 /// What a checkpoint knows beside the state of the scene. Throws InputError for the checkpoint of a stationary run.
 struct StoredEvolution {
