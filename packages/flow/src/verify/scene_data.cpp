@@ -1,5 +1,7 @@
 #include "verify/scene_data.hpp"
 
+#include "thixis/mesh/groups.hpp"
+
 namespace thixis::flow {
 namespace {
 
@@ -25,8 +27,10 @@ BoundaryData SceneData::boundary(double begin, double end) const {
     if (part.kind == FlowBoundaryKind::no_flow) continue;
     std::vector<std::array<double, 2>> places;
     const int first = static_cast<int>(found.kind.size());
+    std::vector<bool> belongs;  // by number of the tag
+    for (const std::string& name : grid.tags) belongs.push_back(mesh::is_in_group(name, tag));
     for (LocalIndex F = 0; F < grid.faces; ++F) {
-      if (on_host.face_tag(F) < 0 || grid.tags[on_host.face_tag(F)] != tag) continue;
+      if (on_host.face_tag(F) < 0 || !belongs[on_host.face_tag(F)]) continue;
       found.of_face[F] = first + static_cast<int>(places.size());
       places.push_back({on_host.face_centre(F, 0), on_host.face_centre(F, 1)});
     }
