@@ -1,5 +1,6 @@
 #pragma once
 #include "estimate/bound.hpp"
+#include "problem/problem.hpp"
 #include "step/predictor.hpp"
 #include "thixis/algebra/tpetra.hpp"
 #include "thixis/complementarity/newton.hpp"

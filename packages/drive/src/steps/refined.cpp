@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "refine/marking.hpp"
+#include "thixis/algebra/tpetra.hpp"
 
 namespace thixis::drive {
 

@@ -35,7 +35,7 @@ struct TwoPhaseBound::Impl {
   fv::View<double*[most_faces][components]> broken, broken_before;
   fv::View<double**> given, distances, residuals, sigma, rest;
   fv::View<double* [components]> missed;
-  fv::View<double* [parts]> errors;
+  fv::View<double* [parts_of_cell]> errors;
 
   Impl(const TwoPhaseOperator& of_flow, const FlowScales& of_scales, const TwoPhaseBoundParams& of_params)
       : flow(of_flow),
@@ -53,7 +53,7 @@ struct TwoPhaseBound::Impl {
     sigma = fv::View<double**>("thixis::flow::lifted", faces, 2 * components);
     rest = fv::View<double**>("thixis::flow::lift_rest", owned, 2 * components);
     missed = fv::View<double* [components]>("thixis::flow::masses_missed", owned);
-    errors = fv::View<double* [parts]>("thixis::flow::errors", owned);
+    errors = fv::View<double* [parts_of_cell]>("thixis::flow::errors", owned);
   }
 
   bool literature() const { return measure.literature(); }

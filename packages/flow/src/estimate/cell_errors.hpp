@@ -8,7 +8,7 @@ namespace thixis::flow {
 struct Part {
   enum { space, in_time, linearization, algebraic, all_residuals, bent, appearing, disappearing, count };
 };
-constexpr int parts = Part::count;
+constexpr int parts_of_cell = Part::count;
 
 /// Squared norms of a cell, by component divided by its mass.                                                            (5.1)
 struct CellErrors {
@@ -24,7 +24,7 @@ struct CellErrors {
   fv::View<double**> distances;                  ///< |grad (p_j - average)|²
   fv::View<double**> sigma, rest;                ///< columns: linearization w, h, algebraic w, h
   fv::View<double* [components]> masses_missed;  ///< l_c(U) - l_c(V) - l_c'(V) (U - V); not read where lifted
-  fv::View<double* [parts]> out;                 ///< overwritten
+  fv::View<double* [parts_of_cell]> out;         ///< overwritten
 
   KOKKOS_FUNCTION double lift(LocalIndex K, int column, int c) const {
     double g[most_faces];

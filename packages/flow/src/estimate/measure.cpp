@@ -10,16 +10,18 @@
 namespace thixis::flow {
 namespace {
 
-using Errors = fv::View<double* [parts]>;
+using Errors = fv::View<double* [parts_of_cell]>;
 
+struct Summed {
+  Errors errors;
+  KOKKOS_FUNCTION void operator()(LocalIndex K, method::Sums<Part>& sums) const {
+    for (int part = 0; part < Part::count; ++part) sums[part] += errors(K, part);
+  }
+};
+
+/// Over all ranks. Collective.
 method::Sums<Part> summed(const Errors& errors, const fv::Grid& grid) {
-  const auto e = errors;
-  return method::sum_over_cells<Part>(
-             "thixis::flow::sums", grid.owned_cells,
-             KOKKOS_LAMBDA(LocalIndex K, method::Sums<Part> & sums) {
-               for (int part = 0; part < Part::count; ++part) sums[part] += e(K, part);
-             })
-      .over(grid.comm);
+  return method::sum_over_cells<Part>("thixis::flow::sums", grid.owned_cells, Summed{errors}).over(grid.comm);
 }
 
 }  // namespace

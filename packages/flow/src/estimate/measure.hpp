@@ -20,16 +20,17 @@ class StepMeasure {
 
   bool literature() const { return params_.measure == complementarity::Measure::literature; }
   /// From CellErrors::out of a step of this length. Collective.
-  complementarity::Estimate operator()(const fv::View<double* [parts]>& errors, double length);
+  complementarity::Estimate operator()(const fv::View<double* [parts_of_cell]>& errors, double length);
 
   // Of the last call.
   const models::StepErrors& step_errors() const { return of_step_; }
   const CellParts& cells() const { return cells_; }
 
  private:
-  complementarity::Estimate of_residuals(const fv::View<double* [parts]>& errors, double length);
-  complementarity::Estimate of_literature(const fv::View<double* [parts]>& errors, double length);
-  void set_cells(const fv::View<double* [parts]>& errors, double iteration_unit, double discretization_unit, double transition_unit);
+  complementarity::Estimate of_residuals(const fv::View<double* [parts_of_cell]>& errors, double length);
+  complementarity::Estimate of_literature(const fv::View<double* [parts_of_cell]>& errors, double length);
+  void set_cells(const fv::View<double* [parts_of_cell]>& errors, double iteration_unit, double discretization_unit,
+                 double transition_unit);
 
   const fv::Grid& grid_;
   TwoPhaseBoundParams params_;

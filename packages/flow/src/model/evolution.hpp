@@ -27,7 +27,7 @@ class TwoPhaseEvolution final : public models::Evolution {
   complementarity::Problem& problem() override { return problem_; }
   std::vector<double> jumps() const override { return jumps_; }
 
-  // two_phase_evolution.cpp: from step to step
+  // evolution.cpp: from step to step
   Teuchos::RCP<algebra::Vector> initial() override;
   void check(const std::vector<double>& times) const override;
   void begin(const models::TimeStep& step, const algebra::Vector& before) override;
@@ -41,7 +41,7 @@ class TwoPhaseEvolution final : public models::Evolution {
   void accept(const algebra::Vector& X) override;
   complementarity::KktData kkt_data(const algebra::Vector& X) const override;
 
-  // two_phase_results.cpp: what is shown and judged
+  // results.cpp: what is shown and judged
   std::optional<complementarity::Estimate> estimate_so_far() const override { return bound_so_far_.value(); }
   bool every_step_estimated() const override { return bound_so_far_.every_step(); }
   std::string bound_name() const override;
@@ -55,7 +55,7 @@ class TwoPhaseEvolution final : public models::Evolution {
   std::vector<output::FieldData> fields(const algebra::Vector& X, const complementarity::ActiveSet& active,
                                         const std::vector<std::string>& names) const override;
 
-  // two_phase_restart.cpp
+  // restart.cpp
   models::State save(const algebra::Vector& X) const override;
   Teuchos::RCP<algebra::Vector> restore(const output::StoredCheckpoint& stored) override;
 
