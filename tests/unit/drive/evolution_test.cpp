@@ -3,10 +3,11 @@
 #include <cmath>
 #include <filesystem>
 
-#include "evolution_checkpoint.hpp"
 #include "falling.hpp"
 #include "registry.hpp"
-#include "step_control.hpp"
+#include "restart/checkpoint.hpp"
+#include "restart/stored.hpp"
+#include "steps/step_control.hpp"
 #include "thixis/algebra/tpetra.hpp"
 #include "thixis/drive/evolve.hpp"
 #include "thixis/membranes/params.hpp"

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "estimated_model.hpp"
-#include "expectations.hpp"
+#include "judge/expectations.hpp"
 #include "registry.hpp"
 #include "thixis/algebra/tpetra.hpp"
 #include "thixis/core/error.hpp"

@@ -1,4 +1,4 @@
-#include "cases.hpp"
+#include "data/cases.hpp"
 
 #include <gtest/gtest.h>
 

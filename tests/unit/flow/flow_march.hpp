@@ -1,9 +1,10 @@
 #pragma once
+#include "estimate/bound.hpp"
+#include "problem/problem.hpp"
+#include "step/predictor.hpp"
 #include "thixis/algebra/tpetra.hpp"
 #include "thixis/complementarity/newton.hpp"
 #include "thixis/flow/scene.hpp"
-#include "two_phase_bound.hpp"
-#include "two_phase_predictor.hpp"
 
 namespace thixis::flow {
 

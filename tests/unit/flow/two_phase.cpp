@@ -8,10 +8,10 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "problem/increments.hpp"
+#include "problem/problem.hpp"
 #include "thixis/complementarity/newton.hpp"
 #include "thixis/flow/scene.hpp"
-#include "two_phase_increments.hpp"
-#include "two_phase_problem.hpp"
 
 namespace thixis::flow {
 namespace {

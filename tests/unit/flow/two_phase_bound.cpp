@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "flow_march.hpp"
-#include "two_phase_estimate_kernels.hpp"
+#include "laws/settle.hpp"
 
 namespace thixis::flow {
 namespace {

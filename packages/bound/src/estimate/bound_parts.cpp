@@ -1,12 +1,10 @@
 #include "estimate/bound_parts.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include "data/cut_oscillation.hpp"
 #include "estimate/exactness.hpp"
 #include "estimate/square.hpp"
 #include "thixis/mesh/ancestry.hpp"
+#include "thixis/method/worst_cells.hpp"
 
 namespace thixis::bound {
 
@@ -81,29 +79,11 @@ std::size_t BoundParts::bytes() const {
   return bytes + sizeof(double) * owned() * 8;  // contact, parts of cells, of the pair
 }
 
-namespace {
-
-struct WorstCells {
-  GuaranteedBound::CellParts of;
-  double least;
-  KOKKOS_FUNCTION void operator()(int K, double& algebraic, double& linearization) const {
-    const double disc = of.discretization(K), lin = of.linearization(K), alg = of.algebraic(K), compared = disc > least ? disc : least;
-    const double of_alg = alg > 0 ? alg / (compared > lin ? compared : lin) : 0, of_lin = lin > 0 ? lin / compared : 0;
-    algebraic = of_alg > algebraic ? of_alg : algebraic;
-    linearization = of_lin > linearization ? of_lin : linearization;
-  }
-};
-
-}  // namespace
-
 void find_worst_cells(const GuaranteedBound::CellParts& cells, const mesh::Mesh& mesh, complementarity::Estimate& eta) {
-  const WorstCells kernel{cells, 1e-3 * eta.discretization / std::sqrt(static_cast<double>(mesh.global_cells))};
-  std::vector<double> worst(2, 0.0);
-  Kokkos::parallel_reduce("thixis::bound::worst_cells", Kokkos::RangePolicy<>(0, mesh.owned_cells), kernel, Kokkos::Max<double>(worst[0]),
-                          Kokkos::Max<double>(worst[1]));
-  mesh.comm.max(worst);
-  eta.worst_algebraic = std::max(worst[0], 0.0);
-  eta.worst_linearization = std::max(worst[1], 0.0);
+  const method::WorstCells worst =
+      method::worst_cells({cells.discretization, cells.linearization, cells.algebraic}, eta.discretization, mesh.global_cells, mesh.comm);
+  eta.worst_algebraic = worst.algebraic;
+  eta.worst_linearization = worst.linearization;
 }
 
 }  // namespace thixis::bound

@@ -55,8 +55,7 @@ struct BoundParts {
   std::size_t bytes() const;
 };
 
-/// Worst relations of the parts of cells, over all cells. Cells where the solution is exact have no discretization error to compare with: a
-/// thousandth of the mean one stands in for it. Collective.
+/// Sets the worst relations of the parts of cells (method::worst_cells). Collective.
 void find_worst_cells(const GuaranteedBound::CellParts& cells, const mesh::Mesh& mesh, complementarity::Estimate& eta);
 
 }  // namespace thixis::bound
