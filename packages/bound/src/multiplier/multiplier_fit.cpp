@@ -99,7 +99,7 @@ void contact_at_points(const method::Space& space, const CellShares& shares, con
     for (std::size_t l = 0; l < M.extent(0); ++l) on_points(l) = M(l) * std::max(K(l), 0.0);
   }
   if (vanishes(product)) return Kokkos::deep_copy(out, 0);
-  const CellTable part = shares(product);
+  const CellTable& part = shares(product);
   Kokkos::parallel_for(
       "thixis::bound::contact_at_points", Kokkos::RangePolicy<>(0, out.extent_int(0)), KOKKOS_LAMBDA(int K) {
         out(K) = 0;
