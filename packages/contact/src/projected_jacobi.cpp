@@ -92,17 +92,17 @@ struct Sweep {
   In F, D, offset;
   Out x, lambda;  ///< out
 
-  /// (A u)_l of n fields; returns A_ll.
-  template <int n>
+  /// (A u)_l of N fields; returns A_ll.
+  template <int N>
   KOKKOS_FUNCTION double product(const LocalMatrix& A, int l, double* sum) const {
-    double own = 0, s[n] = {};
+    double own = 0, s[N] = {};
     for (std::size_t e = A.graph.row_map(l); e < A.graph.row_map(l + 1); ++e) {
       const LocalIndex m = A.graph.entries(e);
       const double value = A.values(e);
-      for (int j = 0; j < n; ++j) s[j] += value * u(m, j);
+      for (int j = 0; j < N; ++j) s[j] += value * u(m, j);
       if (m == l) own = value;
     }
-    for (int j = 0; j < n; ++j) sum[j] = s[j];
+    for (int j = 0; j < N; ++j) sum[j] = s[j];
     return own;
   }
   KOKKOS_FUNCTION void balance(int l, double* balanced, double* diagonal) const {

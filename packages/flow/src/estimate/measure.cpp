@@ -78,7 +78,7 @@ complementarity::Estimate StepMeasure::of_literature(const Errors& errors, doubl
 
 void StepMeasure::set_cells(const Errors& errors, double iteration_unit, double discretization_unit, double transition_unit) {
   const CellParts out = cells_;
-  const auto e = errors;
+  const auto& e = errors;
   const auto volume = grid_.volume;
   const double bent_unit = literature() ? discretization_unit : 0;
   Kokkos::parallel_for(

@@ -32,7 +32,7 @@ std::array<double, components> summed(const fv::Grid& grid, const Vector& v) {
 
 bool is_open(const TwoPhaseOperator& flow) {
   int faces = 0;
-  const auto kind = flow.face_kind();
+  const auto& kind = flow.face_kind();
   Kokkos::parallel_reduce(
       "thixis::flow::open", Cells(0, flow.grid().faces),
       KOKKOS_LAMBDA(LocalIndex F, int& sum) { sum += kind(F) == FlowBoundaryKind::state; }, faces);
@@ -47,7 +47,7 @@ Balancing::Balancing(const TwoPhaseOperator& flow) : flow_(flow), volume_(volume
 Teuchos::RCP<Vector> Balancing::mode(int component, const fv::View<PhaseState*>& states) const {
   const auto mode = Teuchos::rcp(new Vector(flow_.map()));
   const auto z = write(*mode);
-  const auto at = states;
+  const auto& at = states;
   const int unknown = component == hydrogen ? dissolved : open_ ? pressure : gas_saturation;
   Kokkos::parallel_for(
       "thixis::flow::balancing_mode", Cells(0, flow_.grid().owned_cells), KOKKOS_LAMBDA(LocalIndex K) {

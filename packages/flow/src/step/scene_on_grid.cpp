@@ -58,7 +58,7 @@ void SceneOnGrid::set_rates(const scene::FieldPtr& field, const Places& places, 
   if (!field) return;
   const auto values = places.values(field, t);
   const auto index = places.index;
-  const auto to = rates;
+  const auto& to = rates;
   const double seconds = seconds_per_unit_;
   Kokkos::parallel_for(
       "thixis::flow::rates", Kokkos::RangePolicy<>(0, places.count()),
@@ -69,7 +69,7 @@ void SceneOnGrid::set_states(const std::string& tag, double t, const fv::View<Ph
   const Places& places = parts_.at(tag);
   const StateValues at = states_at(scene_.boundary.at(tag).state, laws_, places, t, "boundary/" + tag);
   const auto index = places.index;
-  const auto to = outside;
+  const auto& to = outside;
   const TwoPhaseLaws laws = laws_;
   Kokkos::parallel_for(
       "thixis::flow::outside", Kokkos::RangePolicy<>(0, places.count()),
