@@ -120,7 +120,7 @@ void Layout::interpolate_traces(const Space&, const Function&, double, Vector&) 
 bool Layout::backwards(const Space&, LocalIndex, int) const { return false; }
 
 void Layout::share(const Space& space, const Vector& R, const View<double**>& moments) const {
-  const ElementUnknowns columns = space.elements();
+  const ElementUnknowns& columns = space.elements();
   if (sharers_.extent(0) == 0) {  // all cells of an unknown of this rank are patch cells
     sharers_ = View<int*>("thixis::method::sharers", algebra::local_size(*space.map()));
     count_cells(columns, moments.extent_int(1), sharers_);

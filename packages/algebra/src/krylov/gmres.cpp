@@ -25,7 +25,9 @@ class GmresWatch : public Watch {
   Teuchos::RCP<const MultiVector> iterate(Watch::Iteration& iteration) override {
     const auto state = dynamic_cast<GmresIteration&>(iteration).getState();
     auto& problem = const_cast<Problem&>(iteration.getProblem());
-    return iterate_(*problem.getCurrLHSVec(), problem.getRightPrec().get(), *state.V, *state.R, *state.z, state.curDim);
+    const Teuchos::RCP<MultiVector> x = problem.getCurrLHSVec();
+    if (x.is_null()) return {};  // no system is being solved
+    return iterate_(*x, problem.getRightPrec().get(), *state.V, *state.R, *state.z, state.curDim);
   }
 
   KrylovIterate iterate_;

@@ -5,8 +5,6 @@
 namespace thixis::flow {
 namespace {
 
-constexpr int water = 0, hydrogen = 1;
-
 /// Values of functions of the scene at places (x, y) of one kind; zero where there is no function.
 std::vector<double> at(const scene::FieldPtr& field, const std::vector<std::array<double, 2>>& places, double t) {
   std::vector<double> x, y, values(places.size(), 0);
