@@ -1,20 +1,8 @@
 #pragma once
-#include <algorithm>
-#include <string>
-#include <vector>
-
-#include "thixis/equilibration/cell_fields.hpp"
+#include "thixis/mesh/to_view.hpp"
 
 namespace thixis::equilibration {
 
-/// An array of the host as a View.
-template <class T>
-View<T*> to_view(const std::string& label, const std::vector<T>& values) {
-  const View<T*> view(Kokkos::view_alloc(Kokkos::WithoutInitializing, label), values.size());
-  const auto host = Kokkos::create_mirror_view(view);
-  std::copy(values.begin(), values.end(), host.data());
-  Kokkos::deep_copy(view, host);
-  return view;
-}
+using mesh::to_view;
 
 }  // namespace thixis::equilibration
