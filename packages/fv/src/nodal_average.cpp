@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "thixis/algebra/tpetra.hpp"
+#include "thixis/fv/host.hpp"
 
 namespace thixis::fv {
 namespace {
@@ -168,12 +169,7 @@ struct NodalAverage::Impl {
 
   Impl(const Grid& on, const std::vector<bool>& held_faces)
       : grid(on), corners("thixis::fv::corner_nodes", on.owned_cells, on.corners()), face_node("thixis::fv::face_nodes", on.faces) {
-    const auto host = [](const auto& view) { return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), view); };
-    const auto begin = host(grid.cell_face_begin), faces = host(grid.cell_faces);
-    const auto vertices = host(grid.cell_vertices);
-    const auto vertex = host(grid.vertex), face_centre = host(grid.face_centre), normal = host(grid.face_normal);
-    const auto area = host(grid.face_area);
-    const auto face_cells = host(grid.face_cells);
+    const HostGrid host = on_host(grid);
     const auto corners_host = Kokkos::create_mirror_view(corners);
     const auto face_node_host = Kokkos::create_mirror_view(face_node);
 
@@ -190,24 +186,27 @@ struct NodalAverage::Impl {
     };
     for (LocalIndex K = 0; K < grid.owned_cells; ++K)
       for (int i = 0; i < grid.corners(); ++i) {
-        const LocalIndex v = vertices(K, i);
-        if (node_of_vertex[v] < 0) node_of_vertex[v] = add(grid.vertex_id[v], vertex(v, 0), vertex(v, 1));
+        const LocalIndex v = host.cell_vertices(K, i);
+        if (node_of_vertex[v] < 0) node_of_vertex[v] = add(grid.vertex_id[v], host.vertex(v, 0), host.vertex(v, 1));
         corners_host(K, i) = node_of_vertex[v];
         cells_around[node_of_vertex[v]].push_back(K);
       }
     for (LocalIndex F = 0; F < grid.faces; ++F)  // in one dimension its vertex
-      face_node_host(F) = grid.dimension == 1 ? -1 : add(grid.global_vertices + grid.face_id[F], face_centre(F, 0), face_centre(F, 1));
+      face_node_host(F) =
+          grid.dimension == 1 ? -1 : add(grid.global_vertices + grid.face_id[F], host.face_centre(F, 0), host.face_centre(F, 1));
     for (LocalIndex K = 0; K < grid.owned_cells; ++K)
-      for (LocalIndex f = begin(K); f < begin(K + 1); ++f) {
-        const LocalIndex F = faces(f);
+      for (LocalIndex f = host.cell_face_begin(K); f < host.cell_face_begin(K + 1); ++f) {
+        const LocalIndex F = host.cell_faces(f);
         if (grid.dimension == 2) cells_around[face_node_host(F)].push_back(K);
         if (!held_faces[F]) continue;
         if (grid.dimension == 2) held_around[face_node_host(F)].push_back(F);
         for (int i = 0; i < grid.corners(); ++i) {
-          const LocalIndex v = vertices(K, i);
+          const LocalIndex v = host.cell_vertices(K, i);
           double off = 0;
-          for (int c = 0; c < 2; ++c) off += (vertex(v, c) - face_centre(F, c)) * normal(F, c);
-          const double width = grid.dimension == 1 ? std::abs(vertex(vertices(K, 1), 0) - vertex(vertices(K, 0), 0)) : area(F);
+          for (int c = 0; c < 2; ++c) off += (host.vertex(v, c) - host.face_centre(F, c)) * host.face_normal(F, c);
+          const double width = grid.dimension == 1
+                                   ? std::abs(host.vertex(host.cell_vertices(K, 1), 0) - host.vertex(host.cell_vertices(K, 0), 0))
+                                   : host.face_area(F);
           if (std::abs(off) <= 1e-6 * width) held_around[corners_host(K, i)].push_back(F);
         }
       }
