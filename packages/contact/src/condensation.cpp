@@ -188,8 +188,16 @@ void Condensation::recover(const algebra::Vector& b, const algebra::Vector& x_co
       KOKKOS_LAMBDA(int row) { values(original_row(row), 0) = remaining(row, 0); });
   over_blocks(d.kept, d.y.extent_int(0), [&](LocalIndex first, LocalIndex count) {
     const auto y = Kokkos::subview(d.y, std::pair(0, count), Kokkos::ALL);
-    Kokkos::parallel_for("thixis::contact::recover", Kokkos::RangePolicy<Execution>(0, count),
-                         Recover{d.elements, d.remaining, first, d.factors, given, remaining, y, values});
+    Recover kernel;
+    kernel.elements = d.elements;
+    kernel.remaining = d.remaining;
+    kernel.first = first;
+    kernel.factors = d.factors;
+    kernel.b = given;
+    kernel.x_remaining = remaining;
+    kernel.y = y;
+    kernel.x = values;
+    Kokkos::parallel_for("thixis::contact::recover", Kokkos::RangePolicy<Execution>(0, count), kernel);
   });
 }
 

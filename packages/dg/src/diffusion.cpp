@@ -9,7 +9,6 @@
 #include "thixis/dg/params.hpp"
 #include "thixis/dg/space.hpp"
 #include "thixis/method/gradient_form.hpp"
-#include "thixis/reference/modal.hpp"
 
 namespace thixis::dg {
 namespace {
@@ -87,7 +86,7 @@ class Diffusion final : public method::Form {
     mesh.comm.together([&] {
       add_fluxes({0, end_of_form_}, false, u, moments);
       add_fluxes({end_of_form_, end_of_held_}, true, u, moments);
-      add_boundary_fluxes(boundary, t, moments);
+      add_boundary_data(boundary, t, moments);
     });
     dg::native_flux(mesh, *flux_tables_, penalty_.theta, density, space().coefficients().element_entries, u, moments, mesh.owned_cells,
                     sigma);
@@ -114,35 +113,17 @@ class Diffusion final : public method::Form {
     }
   }
 
-  /// What the boundary data give: weak Dirichlet data g take g off [u], tractions t make sigma·n = -t. Throws on this rank only.
-  void add_boundary_fluxes(const BoundaryValues& boundary, double t, const FaceMoments& moments) const {
-    const mesh::HostMesh& mesh = space().host();
+  /// What the boundary data give. Throws on this rank only.
+  void add_boundary_data(const BoundaryValues& boundary, double t, const FaceMoments& moments) const {
     const auto& dirichlet = space().options().dirichlet;
     const Traces at = traces(space().basis(), space().options().params.order());
-    const auto flux = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), moments.flux);
-    const auto slip = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), moments.slip);
-    const int p = space().basis().degree(), points = at.points();
     for (std::size_t tag = 0; tag < dirichlet.size(); ++tag) {
       if (dirichlet[tag] && strong(space().options())) continue;
       const auto& data = dirichlet[tag] ? boundary.dirichlet[tag] : boundary.neumann[tag];
       if (!data) continue;
-      const BoundaryPoints on(space(), static_cast<LocalIndex>(tag), at);
-      const auto value = on.values(*data, t), mu = dirichlet[tag] ? on.values_inside(*tension_) : std::vector<double>(value.size(), 1.0);
-      for (std::size_t k = 0; k < on.faces.size(); ++k) {
-        const LocalIndex F = on.faces[k];
-        const int side = mesh.face_cells(F, 0) >= 0 ? 0 : 1;
-        const double outward = side == 0 ? 1 : -1;
-        const double length = mesh::face_geometry(mesh.coordinates, mesh.face_vertices, F).length;
-        for (int q = 0; q < points; ++q) {
-          const auto L = reference::legendre(p + 1, at.t(q));
-          const double weighted = outward * at.weight(q) * mu[k * points + q] * value[k * points + q];
-          for (int j = 0; j <= p; ++j) flux(F, j) -= (dirichlet[tag] ? penalty_.eta / length : 1) * weighted * L[j];
-          for (int j = 0; j < p && dirichlet[tag]; ++j) slip(F, side, j) -= weighted * L[j];
-        }
-      }
+      const auto on = boundary_data(space(), static_cast<LocalIndex>(tag), at, *data, t, dirichlet[tag] ? tension_.get() : nullptr);
+      add_boundary_fluxes(space().mesh(), on, at, dirichlet[tag] ? &penalty_ : nullptr, moments);
     }
-    Kokkos::deep_copy(moments.flux, flux);
-    Kokkos::deep_copy(moments.slip, slip);
   }
 
   scene::FieldPtr tension_;

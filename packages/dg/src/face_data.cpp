@@ -1,33 +1,74 @@
 #include "face_data.hpp"
 
-#include "thixis/algebra/tpetra.hpp"
+#include "thixis/mesh/to_view.hpp"
+#include "thixis/method/evaluate.hpp"
 
 namespace thixis::dg {
 namespace {
 
-/// Physical points of the rule on a face, from its lower to its higher vertex id.
-void place(const mesh::HostMesh& mesh, LocalIndex F, const Traces& at, double* x, double* y) {
-  const LocalIndex a = mesh.face_vertices(F, 0), b = mesh.face_vertices(F, 1);
-  for (int q = 0; q < at.points(); ++q) {
-    x[q] = (1 - at.t(q)) * mesh.coordinates(a, 0) + at.t(q) * mesh.coordinates(b, 0);
-    y[q] = (1 - at.t(q)) * mesh.coordinates(a, 1) + at.t(q) * mesh.coordinates(b, 1);
-  }
-}
+struct Place {
+  View<double* [2]> coordinates;
+  View<LocalIndex* [3]> cell_vertices;
+  View<LocalIndex* [2]> face_vertices;
+  Faces faces;
+  View<const double*> t;
+  int side;
+  LocalIndex first;
+  PointValues x, y;  ///< out, overwritten
 
-/// The same, but so little inside K that a function which jumps across F shows its trace from K.
-void place_inside(const mesh::HostMesh& mesh, LocalIndex K, LocalIndex F, const Traces& at, double* x, double* y) {
-  constexpr double inside = 1e-10;
-  double centroid[2] = {0, 0};
-  for (int a = 0; a < 3; ++a)
-    for (int d = 0; d < 2; ++d) centroid[d] += mesh.coordinates(mesh.cell_vertices(K, a), d) / 3;
-  place(mesh, F, at, x, y);
-  for (int q = 0; q < at.points(); ++q) {
-    x[q] += inside * (centroid[0] - x[q]);
-    y[q] += inside * (centroid[1] - y[q]);
+  static constexpr double inside = 1e-10;
+
+  KOKKOS_FUNCTION void operator()(int e) const {
+    const LocalIndex k = first + e, F = faces.face(k), a = face_vertices(F, 0), b = face_vertices(F, 1);
+    const int points = t.extent_int(0);
+    for (int d = 0; d < 2; ++d) {
+      const PointValues& out = d == 0 ? x : y;
+      const double centroid = side == on_face ? 0 : centre(k, d);
+      for (int q = 0; q < points; ++q) {
+        const double at = (1 - t(q)) * coordinates(a, d) + t(q) * coordinates(b, d);
+        out(e * points + q) = side == on_face ? at : at + inside * (centroid - at);
+      }
+    }
   }
+
+  KOKKOS_FUNCTION double centre(LocalIndex k, int d) const {
+    const LocalIndex K = faces.cell(k, faces.cell(k, side) >= 0 ? side : 1 - side);
+    double sum = 0;
+    for (int a = 0; a < 3; ++a) sum += coordinates(cell_vertices(K, a), d) / 3;
+    return sum;
+  }
+};
+
+Faces with_tag(const method::Space& space, LocalIndex tag) {
+  const mesh::HostMesh& mesh = space.host();
+  std::vector<LocalIndex> faces;
+  for (LocalIndex F = 0; F < space.mesh().faces; ++F)
+    if (mesh.face_tag(F) == tag && mesh::first_cell(mesh.face_cells, F) < space.mesh().owned_cells) faces.push_back(F);
+  return faces_of(space.mesh(), mesh::to_view("thixis::dg::tagged_faces", faces));
 }
 
 }  // namespace
+
+PointValues FacePoints::values(const scene::Field& field, double t) const {
+  const PointValues values("thixis::dg::face_values", size());
+  method::evaluate(field, t, size(), x, y, values);
+  return values;
+}
+
+void place(const mesh::Mesh& mesh, const Faces& faces, const Traces& traces, int side, LocalIndex first, LocalIndex count,
+           const FacePoints& points) {
+  Place kernel;
+  kernel.coordinates = mesh.coordinates;
+  kernel.cell_vertices = mesh.cell_vertices;
+  kernel.face_vertices = mesh.face_vertices;
+  kernel.faces = faces;
+  kernel.t = traces.t;
+  kernel.side = side;
+  kernel.first = first;
+  kernel.x = points.x;
+  kernel.y = points.y;
+  Kokkos::parallel_for("thixis::dg::place", Kokkos::RangePolicy<>(0, count), kernel);
+}
 
 Traces traces_for(const method::Space& space, const scene::Field& tension) {
   return traces(space.basis(), tension.constant() ? 2 * space.basis().degree() : space.options().params.order());
@@ -39,83 +80,46 @@ FaceTension::FaceTension(const method::Space& space, const Faces& faces, const T
 const Tensions& FaceTension::at(LocalIndex first, LocalIndex count) {
   if (mu_.extent_int(0) < count) {
     mu_ = Tensions("thixis::dg::face_tension", count, traces_.points());
-    if (const double* value = tension_.constant()) Kokkos::deep_copy(mu_, *value);
+    if (const double* value = tension_.constant()) {
+      Kokkos::deep_copy(mu_, *value);
+    } else {
+      points_ = FacePoints(static_cast<std::size_t>(count) * traces_.points());
+      values_ = PointValues("thixis::dg::tension_at_points", points_.size());
+    }
   }
   if (!tension_.constant()) evaluate(first, count);
   return mu_;
 }
 
 void FaceTension::evaluate(LocalIndex first, LocalIndex count) {
-  const auto face = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), faces_.face);
-  const auto cell = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), faces_.cell);
-  const auto host = Kokkos::create_mirror_view(mu_);
   const int points = traces_.points();
-  std::vector<double> x(count * points), y(x.size()), values(x.size());
+  const Tensions mu = mu_;
+  const PointValues values = values_;
   for (int s = 0; s < 2; ++s) {
-    for (LocalIndex e = 0; e < count; ++e) {
-      const LocalIndex k = first + e, K = cell(k, cell(k, s) >= 0 ? s : 1 - s);
-      place_inside(space_.host(), K, face(k), traces_, &x[e * points], &y[e * points]);
-    }
-    tension_.evaluate({x.size(), x.data(), y.data()}, 0, values.data());
-    for (LocalIndex e = 0; e < count; ++e)
-      for (int q = 0; q < points; ++q) host(e, q, s) = values[e * points + q];
-  }
-  Kokkos::deep_copy(mu_, host);
-}
-
-BoundaryPoints::BoundaryPoints(const method::Space& space, LocalIndex tag, const Traces& traces) {
-  const mesh::HostMesh& mesh = space.host();
-  for (LocalIndex F = 0; F < space.mesh().faces; ++F)
-    if (mesh.face_tag(F) == tag && mesh::first_cell(mesh.face_cells, F) < space.mesh().owned_cells) faces.push_back(F);
-  const std::size_t points = traces.points(), count = faces.size() * points;
-  for (auto* coordinate : {&x, &y, &inside_x, &inside_y}) coordinate->resize(count);
-  for (std::size_t k = 0; k < faces.size(); ++k) {
-    const LocalIndex F = faces[k];
-    place(mesh, F, traces, &x[k * points], &y[k * points]);
-    place_inside(mesh, mesh::first_cell(mesh.face_cells, F), F, traces, &inside_x[k * points], &inside_y[k * points]);
+    place(space_.mesh(), faces_, traces_, s, first, count, points_);
+    method::evaluate(tension_, 0, count * points, points_.x, points_.y, values);
+    Kokkos::parallel_for(
+        "thixis::dg::face_tension", Kokkos::RangePolicy<>(0, count), KOKKOS_LAMBDA(int e) {
+          for (int q = 0; q < points; ++q) mu(e, q, s) = values(e * points + q);
+        });
   }
 }
 
-std::vector<double> BoundaryPoints::values(const scene::Field& field, double t) const {
-  std::vector<double> values(x.size());
-  field.evaluate({x.size(), x.data(), y.data()}, t, values.data());
-  return values;
-}
-
-std::vector<double> BoundaryPoints::values_inside(const scene::Field& field) const {
-  std::vector<double> values(x.size());
-  field.evaluate({x.size(), inside_x.data(), inside_y.data()}, 0, values.data());
-  return values;
-}
-
-void add_weakly(const method::Space& space, const Penalty& penalty, const scene::Field& tension, const scene::Field& dirichlet,
-                LocalIndex tag, double t, algebra::Vector& load) {
-  const mesh::HostMesh& mesh = space.host();
-  const Traces at = traces(space.basis(), space.options().params.order());
-  const auto columns = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), space.elements());
-  const auto out = algebra::host_view(load);
-  const std::size_t points = at.points();
-  const BoundaryPoints on(space, tag, at);
-  const auto g = on.values(dirichlet, t), mu = on.values_inside(tension);
-  for (std::size_t k = 0; k < on.faces.size(); ++k) {
-    const LocalIndex F = on.faces[k], K = mesh::first_cell(mesh.face_cells, F);
-    const auto cell = mesh::cell_geometry(mesh.coordinates, mesh.cell_vertices, K);
-    const auto face = mesh::face_geometry(mesh.coordinates, mesh.face_vertices, F);
-    const double outward = mesh::normal_sign(mesh.face_cells, F, K);
-    const int f = mesh::local_face(mesh.cell_faces, K, F),
-              side = 2 * f + (mesh.face_vertices(F, 0) == mesh.cell_vertices(K, (f + 1) % 3) ? 0 : 1);
-    for (int i = 0; i < space.basis().size(); ++i) {
-      double sum = 0;
-      for (std::size_t q = 0; q < points; ++q) {
-        double slope = 0;
-        for (int a = 0; a < 3; ++a)
-          slope += at.derivative(side, q, i, a) * outward * (face.normal[0] * cell.gradient[a][0] + face.normal[1] * cell.gradient[a][1]);
-        sum += at.weight(q) * face.length * mu[k * points + q] * g[k * points + q] *
-               (penalty.eta / face.length * at.value(side, q, i) - penalty.theta * slope);
-      }
-      out(columns(space.position(K), i)) += sum;
-    }
+BoundaryData boundary_data(const method::Space& space, LocalIndex tag, const Traces& traces, const scene::Field& data, double t,
+                           const scene::Field* tension) {
+  BoundaryData on;
+  on.faces = with_tag(space, tag);
+  const FacePoints points(static_cast<std::size_t>(on.size()) * traces.points());
+  place(space.mesh(), on.faces, traces, on_face, 0, on.size(), points);
+  on.data = points.values(data, t);
+  if (tension) {
+    place(space.mesh(), on.faces, traces, 0, 0, on.size(), points);
+    on.mu = points.values(*tension, 0);
+  } else {
+    on.mu = PointValues("thixis::dg::face_values", points.size());
+    Kokkos::deep_copy(on.mu, 1);
   }
+  return on;
 }
 
 }  // namespace thixis::dg

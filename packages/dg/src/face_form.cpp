@@ -86,8 +86,15 @@ struct FaceMatrices {
 
 Faces faces_of(const mesh::Mesh& mesh, const View<const LocalIndex*>& face) {
   const View<LocalIndex*[2]> cell("thixis::dg::face_cells", face.extent(0)), side("thixis::dg::face_sides", face.extent(0));
-  Kokkos::parallel_for("thixis::dg::faces", Kokkos::RangePolicy<>(0, face.extent_int(0)),
-                       SetFaces{mesh.cell_vertices, mesh.cell_faces, mesh.face_vertices, mesh.face_cells, face, cell, side});
+  SetFaces kernel;
+  kernel.vertices = mesh.cell_vertices;
+  kernel.cell_faces = mesh.cell_faces;
+  kernel.face_vertices = mesh.face_vertices;
+  kernel.face_cells = mesh.face_cells;
+  kernel.face = face;
+  kernel.cell = cell;
+  kernel.side = side;
+  Kokkos::parallel_for("thixis::dg::faces", Kokkos::RangePolicy<>(0, face.extent_int(0)), kernel);
   return {face, cell, side};
 }
 

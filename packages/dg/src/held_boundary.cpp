@@ -48,11 +48,12 @@ void HeldBoundary::collect_fans() {
     const auto& entity = space_.basis().entities()[l];
     if (entity.kind == reference::Entity::vertex) function_of_vertex_[entity.index] = l;
   }
+  const auto patch = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), space_.cells());
   std::vector<std::size_t> place(space_.mesh().cells, cells_.size());
-  for (std::size_t c = 0; c < cells_.size(); ++c) place[space_.cells()(cells_[c].position)] = c;
+  for (std::size_t c = 0; c < cells_.size(); ++c) place[patch(cells_[c].position)] = c;
   std::set<LocalIndex> seen;
   for (std::size_t c = 0; c < owned_; ++c) {
-    const LocalIndex K = space_.cells()(cells_[c].position);
+    const LocalIndex K = patch(cells_[c].position);
     for (int v = 0; v < 3; ++v)
       if (cells_[c].held[function_of_vertex_[v]] && seen.insert(host_.cell_vertices(K, v)).second) fans_.push_back(fan_around(K, v, place));
   }

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "thixis/equilibration/cut.hpp"
-#include "thixis/equilibration/to_view.hpp"
+#include "thixis/mesh/to_view.hpp"
 
 namespace thixis::equilibration {
 namespace {
@@ -64,7 +64,7 @@ std::vector<Family> Families::operator()(std::size_t cells, const mesh::Ancestry
   std::vector<Family> found;
   for (const auto& [shapes, parents] : sort_by_shape(children, level.shape)) {
     if (known_.count(shapes) == 0) known_.emplace(shapes, matrices(cut(shapes, q_), q_));
-    Family family{known_.at(shapes), to_view("thixis::equilibration::parent", parents),
+    Family family{known_.at(shapes), mesh::to_view("thixis::equilibration::parent", parents),
                   Children("thixis::equilibration::children", parents.size())};
     const auto child_host = Kokkos::create_mirror_view(family.child);
     for (std::size_t e = 0; e < parents.size(); ++e)

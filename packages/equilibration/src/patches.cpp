@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <string>
 
-#include "thixis/equilibration/to_view.hpp"
 #include "thixis/mesh/geometry.hpp"
 #include "thixis/mesh/host.hpp"
+#include "thixis/mesh/to_view.hpp"
 
 namespace thixis::equilibration {
 namespace {
@@ -109,9 +109,9 @@ Patches make_patches(const mesh::Mesh& mesh, const View<const LocalIndex*>& cell
     }
 
   Kokkos::deep_copy(all.spoke, spoke);
-  all.patch = to_view("thixis::equilibration::patch", patches);
-  all.corner = to_view("thixis::equilibration::corner", corners);
-  all.given_spokes = to_view("thixis::equilibration::given_spokes", given);
+  all.patch = mesh::to_view("thixis::equilibration::patch", patches);
+  all.corner = mesh::to_view("thixis::equilibration::corner", corners);
+  all.given_spokes = mesh::to_view("thixis::equilibration::given_spokes", given);
   all.given = View<bool*>("thixis::equilibration::given", all.spokes);
   const auto is_given = Kokkos::create_mirror_view(all.given);
   for (const GivenSpoke& s : given) is_given(s.spoke) = true;

@@ -74,12 +74,12 @@ void RootPoisson::solve(const ConstCellTable& r, const Kokkos::View<double* [3],
     if (!(report.residual <= 1e-8 * b.norm2()))
       throw core::Error(core::ExitCode::internal, "The coarse problem of the algebraic error can not be solved: " + report.reason + ".");
   }
-  const auto solution = algebra::host_view(std::as_const(x));
-  const auto of_cells = Kokkos::create_mirror_view(rho);
-  const auto rows = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), row_);
-  for (LocalIndex K = 0; K < mesh_.cells; ++K)
-    for (int i = 0; i < 3; ++i) of_cells(K, i) = rows(K, i) < 0 ? 0 : solution(rows(K, i));
-  Kokkos::deep_copy(rho, of_cells);
+  const auto solution = std::as_const(x).getLocalViewDevice(Tpetra::Access::ReadOnly);
+  const auto row = row_;
+  Kokkos::parallel_for(
+      "thixis::equilibration::root_solution", Kokkos::RangePolicy<algebra::Vector::execution_space>(0, mesh_.cells), KOKKOS_LAMBDA(int K) {
+        for (int i = 0; i < 3; ++i) rho(K, i) = row(K, i) < 0 ? 0 : solution(row(K, i), 0);
+      });
 }
 
 }  // namespace thixis::equilibration

@@ -159,8 +159,16 @@ class VaryingForm final : public method::ElementForm {
     Q_ = method::matrix_view("thixis::hho::reference_squares", 3, n * n, Q);
   }
   void matrices(LocalIndex first, const method::LocalMatrices& A) const override {
-    Kokkos::parallel_for("thixis::hho::cell_form_varying", Kokkos::RangePolicy<>(0, A.extent_int(0)),
-                         VaryingTension{cells_, quadrature_, mu_, B_, G_, Q_, first, A});
+    VaryingTension kernel;
+    kernel.cells = cells_;
+    kernel.quadrature = quadrature_;
+    kernel.mu = mu_;
+    kernel.B = B_;
+    kernel.G = G_;
+    kernel.Q = Q_;
+    kernel.first = first;
+    kernel.A = A;
+    Kokkos::parallel_for("thixis::hho::cell_form_varying", Kokkos::RangePolicy<>(0, A.extent_int(0)), kernel);
   }
 
  private:

@@ -68,17 +68,19 @@ class Diffusion final : public method::Form {
   };
 
   Moments tractions(const std::vector<scene::FieldPtr>& by_tag, double t) const {
-    const Moments traction("thixis::hho::traction", tables_->faces.size(), space().basis().degree());
-    const auto host = Kokkos::create_mirror_view(traction);
+    const std::vector<Face>& faces = tables_->faces;
+    const Moments traction("thixis::hho::traction", faces.size(), space().basis().degree());
     space().mesh().comm.together([&] {
-      for (std::size_t tag = 0; tag < by_tag.size(); ++tag)
-        if (by_tag[tag])
-          project(
-              space(), tables_->faces, *by_tag[tag], t,
-              [&](const Face& F) { return space().host().face_tag(F.face) == static_cast<LocalIndex>(tag); },
-              [&](const Face& F, int j, double coefficient) { host(&F - tables_->faces.data(), j) = coefficient; });
+      for (std::size_t tag = 0; tag < by_tag.size(); ++tag) {
+        if (!by_tag[tag]) continue;
+        const auto wanted = select(faces, [&](const Face& F) { return space().host().face_tag(F.face) == static_cast<LocalIndex>(tag); });
+        const Projected on = project(space(), faces, wanted, *by_tag[tag], t);
+        Kokkos::parallel_for(
+            "thixis::hho::tractions", Kokkos::RangePolicy<>(0, on.size()), KOKKOS_LAMBDA(int e) {
+              for (int k = 0; k < on.coefficient.extent_int(1); ++k) traction(on.number(e), k) = on.coefficient(e, k);
+            });
+      }
     });
-    Kokkos::deep_copy(traction, host);
     return traction;
   }
 

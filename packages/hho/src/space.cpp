@@ -6,11 +6,13 @@
 #include "reference_cell.hpp"
 #include "thixis/algebra/tpetra.hpp"
 #include "thixis/mesh/geometry.hpp"
+#include "thixis/mesh/to_view.hpp"
 
 namespace thixis::hho {
 namespace {
 
 using algebra::Vector;
+using Range = Kokkos::RangePolicy<Vector::execution_space>;
 using method::BoundaryValues;
 using method::Coefficients;
 using method::Space;
@@ -24,37 +26,41 @@ class HybridLayout final : public method::Layout {
 
   Coefficients lift(const Space& space, const BoundaryValues& boundary, double t) const override {
     const Coefficients values("thixis::hho::lift", space.coefficients().entries.size());
-    const auto host = Kokkos::create_mirror_view(values);
     const auto& held = space.numbering().held;
     const int c = space.components();
     space.mesh().comm.together([&] {
       for (std::size_t at = 0; at < boundary.dirichlet.size(); ++at) {
         if (!boundary.dirichlet[at]) continue;
         const int component = static_cast<int>(at) % c;
-        project(
-            space, faces(space), *boundary.dirichlet[at], t,
-            [&](const Face& F) { return held[c * F.entry + component] == static_cast<LocalIndex>(at) / c; },
-            [&](const Face& F, int j, double coefficient) { host(c * (F.entry + j) + component) = coefficient; });
+        const auto wanted =
+            select(faces(space), [&](const Face& F) { return held[c * F.entry + component] == static_cast<LocalIndex>(at) / c; });
+        const Projected on = project(space, faces(space), wanted, *boundary.dirichlet[at], t);
+        Kokkos::parallel_for(
+            "thixis::hho::lift", Kokkos::RangePolicy<>(0, on.size()), KOKKOS_LAMBDA(int e) {
+              for (int k = 0; k < on.coefficient.extent_int(1); ++k) values(c * (on.entry(e) + k) + component) = on.coefficient(e, k);
+            });
       }
     });
-    Kokkos::deep_copy(values, host);
     return values;
   }
 
   /// <t, v_F>.
   void add_traces(const Space& space, const std::vector<scene::FieldPtr>& by_tag, double t, Vector& F) const override {
     const mesh::HostMesh& mesh = space.host();
-    const auto out = algebra::host_view(F);
-    const Rows row(space);
     const int c = space.components();
     for (std::size_t at = 0; at < by_tag.size(); ++at) {
       if (!by_tag[at]) continue;
+      const LocalIndex tag = static_cast<LocalIndex>(at) / c;
       const int component = static_cast<int>(at) % c;
-      project(
-          space, faces(space), *by_tag[at], t,
-          [&](const Face& face) { return mesh.face_tag(face.face) == static_cast<LocalIndex>(at) / c && row(face, 0, component) >= 0; },
-          [&](const Face& face, int j, double coefficient) {
-            out(row(face, j, component)) += mesh::face_geometry(mesh.coordinates, mesh.face_vertices, face.face).length * coefficient;
+      const Unknowns unknown(space, component);
+      const auto wanted = select(faces(space), [&](const Face& face) { return mesh.face_tag(face.face) == tag && unknown(face); });
+      const Projected on = project(space, faces(space), wanted, *by_tag[at], t);
+      const Rows row(space, component);
+      const auto out = F.getLocalViewDevice(Tpetra::Access::ReadWrite);
+      Kokkos::parallel_for(
+          "thixis::hho::add_traces", Range(0, on.size()), KOKKOS_LAMBDA(int e) {
+            for (int k = 0; k < on.coefficient.extent_int(1); ++k)
+              if (const LocalIndex l = row(on.entry(e), k); l >= 0) out(l, 0) += on.length(e) * on.coefficient(e, k);
           });
     }
   }
@@ -62,12 +68,17 @@ class HybridLayout final : public method::Layout {
   /// On faces the projection of u.
   void interpolate_traces(const Space& space, const method::Function& u, double t, Vector& values) const override {
     space.mesh().comm.together([&] {
-      const auto out = algebra::host_view(values);
-      const Rows row(space);
-      for (int component = 0; component < space.components(); ++component)
-        project(
-            space, faces(space), u[component], t, [&](const Face& F) { return row(F, 0, component) >= 0; },
-            [&](const Face& F, int j, double coefficient) { out(row(F, j, component)) = coefficient; });
+      for (int component = 0; component < space.components(); ++component) {
+        const auto wanted = select(faces(space), Unknowns(space, component));
+        const Projected on = project(space, faces(space), wanted, u[component], t);
+        const Rows row(space, component);
+        const auto out = values.getLocalViewDevice(Tpetra::Access::ReadWrite);
+        Kokkos::parallel_for(
+            "thixis::hho::interpolate_traces", Range(0, on.size()), KOKKOS_LAMBDA(int e) {
+              for (int k = 0; k < on.coefficient.extent_int(1); ++k)
+                if (const LocalIndex l = row(on.entry(e), k); l >= 0) out(l, 0) = on.coefficient(e, k);
+            });
+      }
     });
   }
 
@@ -94,22 +105,42 @@ class HybridLayout final : public method::Layout {
   }
 
  private:
-  /// The row of a function of a face, -1 where it is held or of another rank.
+  /// The row of a component of a function of a face, -1 where it is held or of another rank.
   class Rows {
    public:
-    explicit Rows(const Space& space)
+    Rows(const Space& space, int component)
         : components_(space.components()),
+          component_(component),
           rows_(algebra::local_size(*space.map())),
-          column_(Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), space.numbering().column_of_entry)) {}
-    LocalIndex operator()(const Face& F, int j, int component) const {
-      const LocalIndex column = column_(components_ * (F.entry + j) + component);
+          column_(space.numbering().column_of_entry) {}
+    KOKKOS_FUNCTION LocalIndex operator()(LocalIndex entry, int j) const {
+      const LocalIndex column = column_(components_ * (entry + j) + component_);
       return column < rows_ ? column : -1;
     }
 
    private:
-    int components_;
+    int components_, component_;
     LocalIndex rows_;
-    View<LocalIndex*>::HostMirror column_;
+    View<const LocalIndex*> column_;
+  };
+
+  /// Whether there are such rows.
+  class Unknowns {
+   public:
+    Unknowns(const Space& space, int component)
+        : components_(space.components()),
+          component_(component),
+          rows_(algebra::local_size(*space.map())),
+          column_(Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), space.numbering().column_of_entry)) {}
+    bool operator()(const Face& F) const {
+      const LocalIndex column = column_(components_ * F.entry + component_);
+      return column >= 0 && column < rows_;
+    }
+
+   private:
+    int components_, component_;
+    LocalIndex rows_;
+    mesh::ConstHostView<const LocalIndex*> column_;
   };
 
   const std::vector<Face>& faces(const Space& space) const {
@@ -119,7 +150,7 @@ class HybridLayout final : public method::Layout {
 
   ReferenceCell reference_;
   mutable std::vector<Face> faces_;  ///< of the patch cells; these two are made when first asked for
-  mutable Kokkos::View<const LocalIndex*, Kokkos::LayoutRight, Kokkos::HostSpace> cells_;
+  mutable mesh::ConstHostView<const LocalIndex*> cells_;
 };
 
 }  // namespace

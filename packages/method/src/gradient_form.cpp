@@ -86,8 +86,15 @@ class ConstantForm final : public ElementForm {
   ConstantForm(const mesh::Mesh& mesh, const View<const LocalIndex*>& cells, const reference::CellBasis& basis, double mu)
       : mesh_(mesh), cells_(cells), Q_(reference_products(basis)), mu_(mu) {}
   void matrices(LocalIndex first, const LocalMatrices& A) const override {
-    Kokkos::parallel_for("thixis::method::gradient_form", Kokkos::RangePolicy<>(0, A.extent_int(0)),
-                         ConstantTension{mesh_.coordinates, mesh_.cell_vertices, cells_, Q_, mu_, first, A});
+    ConstantTension kernel;
+    kernel.x = mesh_.coordinates;
+    kernel.vertices = mesh_.cell_vertices;
+    kernel.cells = cells_;
+    kernel.Q = Q_;
+    kernel.mu = mu_;
+    kernel.first = first;
+    kernel.A = A;
+    Kokkos::parallel_for("thixis::method::gradient_form", Kokkos::RangePolicy<>(0, A.extent_int(0)), kernel);
   }
 
  private:

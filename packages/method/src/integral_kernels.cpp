@@ -120,9 +120,16 @@ double value_error(const CellFunctions& functions, const QuadratureBlock& block,
 
 double gradient_error(const CellFunctions& functions, const mesh::Mesh& mesh, const QuadratureBlock& block, LocalIndex cells,
                       const AtPoints& known, const Entry& entries, const Coefficients& u) {
+  GradientError kernel;
+  kernel.functions = functions;
+  kernel.x = mesh.coordinates;
+  kernel.vertices = mesh.cell_vertices;
+  kernel.block = block;
+  kernel.known = known;
+  kernel.entries = entries;
+  kernel.u = u;
   double sum = 0;
-  Kokkos::parallel_reduce("thixis::method::gradient_error", range(cells),
-                          GradientError{functions, mesh.coordinates, mesh.cell_vertices, block, known, entries, u}, sum);
+  Kokkos::parallel_reduce("thixis::method::gradient_error", range(cells), kernel, sum);
   return sum;
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "thixis/mesh/remoteness.hpp"
+#include "thixis/mesh/to_view.hpp"
 
 namespace thixis::method {
 namespace {
@@ -16,6 +17,11 @@ constexpr int sides = 4;  ///< of the lattice at which cells are looked at, besi
 constexpr int halvings = 12;
 constexpr double kept = 1.0 / 16;  ///< of the difference
 constexpr double round_off = 1e-12;
+
+template <class V>
+auto on_host(const V& view) {
+  return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), view);
+}
 
 /// A point of a cell with the value there.
 struct Sample {
@@ -44,7 +50,13 @@ std::vector<Barycentric> lattice() {
 /// Looks at cells, and halves ways through all of them at a time.
 class Search {
  public:
-  Search(const CellQuadrature& quadrature, const scene::Field& v, double t) : quadrature_(quadrature), v_(v), t_(t) {}
+  Search(const CellQuadrature& quadrature, const scene::Field& v, double t)
+      : quadrature_(quadrature),
+        cell_(on_host(quadrature.cell)),
+        vertices_(on_host(quadrature.cell_vertices)),
+        coordinates_(on_host(quadrature.coordinates)),
+        v_(v),
+        t_(t) {}
 
   Jumps jumps() {
     found_.of_cells.resize(quadrature_.cells());
@@ -65,7 +77,7 @@ class Search {
   void place(LocalIndex cell, const Barycentric& at, std::vector<double>& x, std::vector<double>& y) const {
     double point[2] = {0, 0};
     for (int a = 0; a < 3; ++a)
-      for (int d = 0; d < 2; ++d) point[d] += at[a] * quadrature_.coordinates(quadrature_.cell_vertices(cell, a), d);
+      for (int d = 0; d < 2; ++d) point[d] += at[a] * coordinates_(vertices_(cell, a), d);
     x.push_back(point[0]);
     y.push_back(point[1]);
   }
@@ -77,10 +89,13 @@ class Search {
   }
 
   /// Ranges of the cells of a block, and a way through each that may jump.
-  void look(const QuadratureBlock& block, const View<double*>& at_rule) {
+  void look(const QuadratureBlock& block, const View<double*>& values_at_rule) {
+    const auto offset = on_host(block.offset);
+    const auto xi = on_host(block.xi);
+    const auto at_rule = on_host(values_at_rule);
     std::vector<double> x, y;
     for (LocalIndex k = 0; k < block.cells; ++k)
-      for (const Barycentric& at : lattice_) place(block.cell(k), at, x, y);
+      for (const Barycentric& at : lattice_) place(cell_(block.first + k), at, x, y);
     const auto at_lattice = values(x, y);
     for (LocalIndex k = 0; k < block.cells; ++k) {
       const double* const of_lattice = &at_lattice[k * lattice_.size()];
@@ -99,9 +114,8 @@ class Search {
         first = false;
       };
       for (std::size_t i = 0; i < lattice_.size(); ++i) meet(lattice_[i], of_lattice[i]);
-      for (int q = block.offset(k); q < block.offset(k + 1); ++q)
-        meet({1 - block.xi(q, 0) - block.xi(q, 1), block.xi(q, 0), block.xi(q, 1)}, at_rule(q));
-      const auto vertex = [&](int a, int d) { return quadrature_.coordinates(quadrature_.cell_vertices(block.cell(k), a), d); };
+      for (int q = offset(k); q < offset(k + 1); ++q) meet({1 - xi(q, 0) - xi(q, 1), xi(q, 0), xi(q, 1)}, at_rule(q));
+      const auto vertex = [&](int a, int d) { return coordinates_(vertices_(cell_(way.cell), a), d); };
       const double by_place = mesh::remoteness(3, vertex) * (range.high - range.low);
       if (way.difference() <= round_off * std::max({std::abs(range.low), std::abs(range.high), v_.cancelled(), by_place})) continue;
       first_.push_back(way.difference());
@@ -116,7 +130,7 @@ class Search {
       Barycentric at;
       for (int a = 0; a < 3; ++a) at[a] = (way.from.at[a] + way.to.at[a]) / 2;
       middle.push_back(at);
-      place(quadrature_.cell(way.cell), at, x, y);
+      place(cell_(way.cell), at, x, y);
     }
     const auto value = values(x, y);
     for (std::size_t w = 0; w < ways_.size(); ++w) {
@@ -134,6 +148,9 @@ class Search {
   }
 
   const CellQuadrature& quadrature_;
+  mesh::ConstHostView<const LocalIndex*> cell_;  ///< these three: of the quadrature
+  mesh::ConstHostView<const LocalIndex* [3]> vertices_;
+  mesh::ConstHostView<const double* [2]> coordinates_;
   const scene::Field& v_;
   double t_;
   const std::vector<Barycentric> lattice_ = lattice();
@@ -148,8 +165,9 @@ Jumps jumps_in_cells(const CellQuadrature& quadrature, const scene::Field& v, do
   return v.constant() ? Jumps() : Search(quadrature, v, t).jumps();
 }
 
-void interpolate_with_jumps(const reference::CellBasis& basis, const Kokkos::View<const LocalIndex**, Kokkos::LayoutRight>& of_cells,
+void interpolate_with_jumps(const reference::CellBasis& basis, const Kokkos::View<const LocalIndex**, Kokkos::LayoutRight>& of_cells_view,
                             const Jumps& jumps, AtJumps rule, std::vector<double>& value) {
+  const auto of_cells = on_host(of_cells_view);
   const int n = basis.size();
   const auto cells = static_cast<LocalIndex>(of_cells.extent(0));
   const bool bernstein = basis.family() == reference::Family::bernstein;

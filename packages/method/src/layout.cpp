@@ -3,6 +3,7 @@
 #include "polynomial_kernels.hpp"
 #include "thixis/algebra/tpetra.hpp"
 #include "thixis/mesh/geometry.hpp"
+#include "thixis/mesh/to_view.hpp"
 #include "thixis/method/space.hpp"
 
 namespace thixis::method {
@@ -23,8 +24,8 @@ std::vector<int> functions_on(const reference::CellBasis& basis, int f) {
 }
 
 /// From values at the places of held entries to coefficients: on each face of its own functions.
-template <class Values, class Entries>
-void to_coefficients(const Space& space, const BoundaryValues& boundary, const Entries& entries, const Values& values) {
+void to_coefficients(const Space& space, const BoundaryValues& boundary, const mesh::ConstHostView<const LocalIndex**>& entries,
+                     const Coefficients::HostMirror& values) {
   const reference::CellBasis& basis = space.basis();
   const mesh::HostMesh& mesh = space.host();
   const int n = basis.size(), c = space.components();

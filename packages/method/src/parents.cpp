@@ -25,8 +25,8 @@ Parents::Parents(const Space& coarse, const Space& fine) : width_(coarse.compone
       parent[k] = static_cast<LocalIndex>(std::lower_bound(ids.begin(), ids.end(), of_cell[k]) - ids.begin());
     set_import(coarse.mesh(), ids);
   }
-  shape_ = on_device("thixis::method::child", shape);
-  parent_ = on_device("thixis::method::parent", parent);
+  shape_ = to_view("thixis::method::child", shape);
+  parent_ = to_view("thixis::method::parent", parent);
 }
 
 void Parents::set_import(const mesh::Mesh& coarse, const std::vector<GlobalIndex>& parents) {

@@ -1,18 +1,13 @@
 #pragma once
-#include <string>
 #include <vector>
 
 #include "polynomial_kernels.hpp"
 #include "thixis/algebra/tpetra.hpp"
+#include "thixis/mesh/to_view.hpp"
 
 namespace thixis::method {
 
-template <class T>
-View<T*> on_device(const char* label, const std::vector<T>& host) {
-  const View<T*> view(std::string(label), host.size());
-  Kokkos::deep_copy(view, Kokkos::View<const T*, Kokkos::HostSpace>(host.data(), host.size()));
-  return view;
-}
+using mesh::to_view;
 
 /// The parents of the patch cells of a space, with the coefficients that a function of the coarse space has there: read in place where all
 /// parents belong to the same rank, on every rank; else fetched from their owners, who alone know a multiplier of moments there.

@@ -6,24 +6,26 @@
 #include <vector>
 
 #include "cut_cell.hpp"
+#include "thixis/mesh/to_view.hpp"
+#include "thixis/method/evaluate.hpp"
 #include "thixis/reference/quadrature.hpp"
 
 namespace thixis::method {
 namespace {
 
-static_assert(Kokkos::SpaceAccessibility<Kokkos::HostSpace, View<double*>::memory_space>::accessible,
-              "fields are evaluated on the host, at points in Views");
+using mesh::to_view;
 
-template <class T>
-View<T*> to_view(const std::string& label, const std::vector<T>& values) {
-  View<T*> view(Kokkos::view_alloc(label, Kokkos::WithoutInitializing), values.size());
-  std::copy(values.begin(), values.end(), view.data());
+View<double* [2]> to_points(const std::string& label, const std::vector<double>& values) {
+  const View<double* [2]> view(Kokkos::view_alloc(label, Kokkos::WithoutInitializing), values.size() / 2);
+  const auto host = Kokkos::create_mirror_view(view);
+  std::copy(values.begin(), values.end(), host.data());
+  Kokkos::deep_copy(view, host);
   return view;
 }
-View<double* [2]> to_points(const std::string& label, const std::vector<double>& values) {
-  View<double* [2]> view(Kokkos::view_alloc(label, Kokkos::WithoutInitializing), values.size() / 2);
-  std::copy(values.begin(), values.end(), view.data());
-  return view;
+
+template <class T>
+T value_at(const View<const T*>& view, std::size_t i) {
+  return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), Kokkos::subview(view, i))();
 }
 
 /// Whether the curve may go through a cell, from the values at its vertices and its centre: a change of sign, or values as near to zero
@@ -40,30 +42,41 @@ struct OwnRules {
   std::vector<double> xi, weight;
 };
 
+/// The vertices of some cells and their centre, four points each.
+struct FillCorners {
+  CellQuadrature quadrature;
+  LocalIndex first;
+  View<double*> x, y;  ///< out
+  KOKKOS_FUNCTION void operator()(const LocalIndex k) const {
+    const CellQuadrature& Q = quadrature;
+    const LocalIndex K = Q.cell(first + k), centre = 4 * k + 3;
+    x(centre) = y(centre) = 0;
+    for (int i = 0; i < 3; ++i) {
+      x(4 * k + i) = Q.coordinates(Q.cell_vertices(K, i), 0);
+      y(4 * k + i) = Q.coordinates(Q.cell_vertices(K, i), 1);
+      x(centre) += x(4 * k + i) / 3;
+      y(centre) += y(4 * k + i) / 3;
+    }
+  }
+};
+
 OwnRules own_rules(const CellQuadrature& quadrature, const scene::Field& level_set, double t) {
   constexpr LocalIndex chunk = 4096;
-  const auto& vertices = quadrature.cell_vertices;
-  const auto& X = quadrature.coordinates;
   OwnRules own;
   own.rule.assign(quadrature.cells(), -1);
   CutCell cut_cell(level_set, t, quadrature.order);
-  std::vector<double> x(4 * chunk), y(4 * chunk), value(4 * chunk);
+  const View<double*> x_view("thixis::method::corner_x", 4 * chunk), y_view("thixis::method::corner_y", 4 * chunk);
+  std::vector<double> value(4 * chunk);
   for (LocalIndex first = 0; first < quadrature.cells(); first += chunk) {
     const LocalIndex count = std::min(chunk, quadrature.cells() - first);
-    for (LocalIndex k = 0; k < count; ++k) {
-      const LocalIndex K = quadrature.cell(first + k);
-      x[4 * k + 3] = y[4 * k + 3] = 0;
-      for (int i = 0; i < 3; ++i) {
-        x[4 * k + i] = X(vertices(K, i), 0);
-        y[4 * k + i] = X(vertices(K, i), 1);
-        x[4 * k + 3] += x[4 * k + i] / 3;
-        y[4 * k + 3] += y[4 * k + i] / 3;
-      }
-    }
+    Kokkos::parallel_for("thixis::method::corners", Kokkos::RangePolicy<>(0, count), FillCorners{quadrature, first, x_view, y_view});
+    const auto x = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), x_view);
+    const auto y = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), y_view);
     level_set.evaluate({static_cast<std::size_t>(4 * count), x.data(), y.data()}, t, value.data());
     for (LocalIndex k = 0; k < count; ++k) {
-      if (!suspicious({value[4 * k], value[4 * k + 1], value[4 * k + 2], value[4 * k + 3]})) continue;
-      const double corners[3][2] = {{x[4 * k], y[4 * k]}, {x[4 * k + 1], y[4 * k + 1]}, {x[4 * k + 2], y[4 * k + 2]}};
+      const int a = 4 * k, b = a + 1, c = a + 2;
+      if (!suspicious({value[a], value[b], value[c], value[a + 3]})) continue;
+      const double corners[3][2] = {{x(a), y(a)}, {x(b), y(b)}, {x(c), y(c)}};
       if (!cut_cell.append(corners, own.xi, own.weight)) continue;
       own.rule[first + k] = static_cast<LocalIndex>(own.offset.size()) - 1;
       own.offset.push_back(static_cast<GlobalIndex>(own.weight.size()));
@@ -73,23 +86,31 @@ OwnRules own_rules(const CellQuadrature& quadrature, const scene::Field& level_s
 }
 
 /// offset(k+1) - offset(k) = number of points of position k.
-View<GlobalIndex*> offsets(const CellQuadrature& quadrature) {
-  View<GlobalIndex*> offset("thixis::method::quadrature_offset", quadrature.cells() + 1);
-  for (LocalIndex k = 0; k < quadrature.cells(); ++k) {
-    const LocalIndex c = quadrature.own_rule(k);
-    offset(k + 1) = offset(k) + (c < 0 ? static_cast<GlobalIndex>(quadrature.rule_weight.extent(0))
-                                       : quadrature.own_offset(c + 1) - quadrature.own_offset(c));
-  }
+View<GlobalIndex*> offsets(const View<const LocalIndex*>& own_rule, const View<const GlobalIndex*>& own_offset, GlobalIndex of_others) {
+  const View<GlobalIndex*> offset("thixis::method::quadrature_offset", own_rule.extent(0) + 1);
+  Kokkos::parallel_scan(
+      "thixis::method::quadrature_offset", Kokkos::RangePolicy<>(0, own_rule.extent_int(0)),
+      KOKKOS_LAMBDA(int k, GlobalIndex& sum, bool last) {
+        const LocalIndex c = own_rule(k);
+        sum += c < 0 ? of_others : own_offset(c + 1) - own_offset(c);
+        if (last) offset(k + 1) = sum;
+      });
   return offset;
 }
 
 int most_points(const CellQuadrature& quadrature) {
+  const auto offset = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), quadrature.offset);
   GlobalIndex most = 0;
-  for (LocalIndex first = 0; first < quadrature.cells(); first += quadrature.block_cells) {
-    const LocalIndex end = std::min(first + quadrature.block_cells, quadrature.cells());
-    most = std::max(most, quadrature.offset(end) - quadrature.offset(first));
-  }
+  for (LocalIndex first = 0; first < quadrature.cells(); first += quadrature.block_cells)
+    most = std::max(most, offset(std::min(first + quadrature.block_cells, quadrature.cells())) - offset(first));
   return static_cast<int>(most);
+}
+
+/// out(first + i) = first + i, or of(i) where there is such a list.
+void list(const View<LocalIndex*>& out, LocalIndex first, LocalIndex count, const View<const LocalIndex*>& of) {
+  Kokkos::parallel_for(
+      "thixis::method::list_cells", Kokkos::RangePolicy<>(0, count),
+      KOKKOS_LAMBDA(int i) { out(first + i) = of.extent(0) > 0 ? of(i) : first + i; });
 }
 
 /// The points of a block: x(q) = X_0 + (X_1 - X_0) xi_0 + (X_2 - X_0) xi_1, weight times 2|K|.
@@ -127,7 +148,7 @@ struct FillPoints {
 
 }  // namespace
 
-GlobalIndex CellQuadrature::points() const { return offset.extent(0) == 0 ? 0 : offset(offset.extent(0) - 1); }
+GlobalIndex CellQuadrature::points() const { return offset.extent(0) == 0 ? 0 : value_at(offset, offset.extent(0) - 1); }
 
 CellQuadrature make_quadrature(const mesh::Mesh& mesh, const View<const LocalIndex*>& cells, int order, const scene::FieldPtr& level_set,
                                double t, LocalIndex block_cells) {
@@ -148,27 +169,36 @@ CellQuadrature make_quadrature(const mesh::Mesh& mesh, const View<const LocalInd
   quadrature.own_offset = to_view("thixis::method::own_offset", own.offset);
   quadrature.own_xi = to_points("thixis::method::own_xi", own.xi);
   quadrature.own_weight = to_view("thixis::method::own_weight", own.weight);
-  quadrature.offset = offsets(quadrature);
+  quadrature.offset = offsets(quadrature.own_rule, quadrature.own_offset, rule.size());
   quadrature.largest_block = most_points(quadrature);
   return quadrature;
 }
 
 View<const LocalIndex*> owned_cells(const mesh::Mesh& mesh) {
-  View<LocalIndex*> cells("thixis::method::owned_cells", mesh.owned_cells);
-  for (LocalIndex K = 0; K < mesh.owned_cells; ++K) cells(K) = K;
+  const View<LocalIndex*> cells("thixis::method::owned_cells", mesh.owned_cells);
+  list(cells, 0, mesh.owned_cells, {});
   return cells;
 }
 
 View<const LocalIndex*> patch_cells(const mesh::Mesh& mesh) {
   const LocalIndex ghosts = static_cast<LocalIndex>(mesh.ghost_patch_cells.extent(0));
-  View<LocalIndex*> cells("thixis::method::patch_cells", mesh.owned_cells + ghosts);
-  for (LocalIndex K = 0; K < mesh.owned_cells; ++K) cells(K) = K;
-  for (LocalIndex k = 0; k < ghosts; ++k) cells(mesh.owned_cells + k) = mesh.ghost_patch_cells(k);
+  const View<LocalIndex*> cells("thixis::method::patch_cells", mesh.owned_cells + ghosts);
+  list(cells, 0, mesh.owned_cells, {});
+  list(cells, mesh.owned_cells, ghosts, mesh.ghost_patch_cells);
   return cells;
 }
 
 void evaluate(const scene::Field& field, double t, const QuadratureBlock& block, const View<double*>& values) {
-  field.evaluate({static_cast<std::size_t>(block.points), block.x.data(), block.y.data()}, t, values.data());
+  evaluate(field, t, block.points, block.x, block.y, values);
+}
+
+void evaluate(const scene::Field& field, double t, int points, const View<const double*>& x, const View<const double*>& y,
+              const View<double*>& values) {
+  const auto x_host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), x);
+  const auto y_host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), y);
+  const auto out = Kokkos::create_mirror_view(values);
+  field.evaluate({static_cast<std::size_t>(points), x_host.data(), y_host.data()}, t, out.data());
+  Kokkos::deep_copy(values, out);
 }
 
 QuadraturePoints::QuadraturePoints(const CellQuadrature& quadrature)
@@ -180,13 +210,21 @@ QuadraturePoints::QuadraturePoints(const CellQuadrature& quadrature)
       y_(Kokkos::view_alloc(std::string("thixis::method::block_y"), Kokkos::WithoutInitializing), quadrature.largest_block) {}
 
 const QuadratureBlock& QuadraturePoints::fill(LocalIndex first, LocalIndex cells) {
-  const FillPoints kernel{quadrature_, first, cells, offset_, xi_, weight_, x_, y_};
+  FillPoints kernel;
+  kernel.quadrature = quadrature_;
+  kernel.first = first;
+  kernel.cells = cells;
+  kernel.offset = offset_;
+  kernel.xi = xi_;
+  kernel.weight = weight_;
+  kernel.x = x_;
+  kernel.y = y_;
   Kokkos::parallel_for("thixis::method::quadrature_points", Kokkos::RangePolicy<>(0, cells), kernel);
   Kokkos::fence();
   const auto positions = std::make_pair(first, first + cells);
   block_.first = first;
   block_.cells = cells;
-  block_.points = static_cast<int>(quadrature_.offset(first + cells) - quadrature_.offset(first));
+  block_.points = value_at(View<const int*>(offset_), cells);
   block_.cell = Kokkos::subview(quadrature_.cell, positions);
   block_.own_rule = Kokkos::subview(quadrature_.own_rule, positions);
   block_.offset = offset_;

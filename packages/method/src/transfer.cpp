@@ -68,9 +68,9 @@ void set_terms(const Space& fine, Restriction& by) {
     }
     begin.push_back(static_cast<LocalIndex>(cell.size()));
   }
-  by.begin = on_device("thixis::method::transfer_begin", begin);
-  by.cell = on_device("thixis::method::transfer_cell", cell);
-  by.place = on_device("thixis::method::transfer_place", place);
+  by.begin = to_view("thixis::method::transfer_begin", begin);
+  by.cell = to_view("thixis::method::transfer_cell", cell);
+  by.place = to_view("thixis::method::transfer_place", place);
 }
 
 }  // namespace

@@ -13,6 +13,12 @@ struct Kernel {
   double looked_at(int i) const { return x(i); }  // found
 };
 
+struct Wide {
+  double a, b, c, d, e, f;
+  Kokkos::View<double*> x;
+  KOKKOS_FUNCTION void operator()(int i) const { x(i) = a + b * c - d * e + f; }
+};
+
 struct Held {
   HostView<double*> named;
   Kokkos::View<double*>::HostMirror mirror;
@@ -40,6 +46,11 @@ void launch(const Kokkos::View<double*>& x) {
   const std::string label = "thixis::algebra::named";
   Kokkos::parallel_for(label, 3, Kernel{x});
   Kokkos::parallel_for(3, Kernel{x});  // found
+  Wide wide;
+  wide.a = wide.b = wide.c = wide.d = wide.e = wide.f = 0;
+  wide.x = x;
+  Kokkos::parallel_for("thixis::algebra::by_name", 3, wide);
+  Kokkos::parallel_for("thixis::algebra::in_order", 3, Wide{0, 0, 0, 0, 0, 0, x});  // found
 }
 
 }  // namespace thixis::algebra

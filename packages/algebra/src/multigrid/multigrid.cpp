@@ -65,17 +65,28 @@ class CoupledCycle : public Operator {
   Vector inverse_;  ///< 1 / a_ii in the decoupled rows, 0 in the others
 };
 
+template <class Out>
+struct MarkCoupled {
+  Matrix::local_matrix_device_type A;
+  Map::local_map_type rows, columns;
+  Out coupled;  ///< out, overwritten
+
+  KOKKOS_FUNCTION void operator()(LocalIndex i) const {
+    const LocalIndex diagonal = columns.getLocalElement(rows.getGlobalElement(i));
+    double mark = 0;
+    for (auto k = A.graph.row_map(i); k < A.graph.row_map(i + 1); ++k)
+      if (A.graph.entries(k) != diagonal && A.values(k) != 0) mark = 1;
+    coupled(i, 0) = mark;
+  }
+};
+
 /// 1 for a row with an off-diagonal entry that is not zero, else 0.
 Vector coupled_rows(const Matrix& A) {
   Vector coupled(A.getRowMap());
-  const auto local = A.getLocalMatrixHost();
-  const auto value = host_overwrite(coupled);
-  for (LocalIndex i = 0; i < local.numRows(); ++i) {
-    const LocalIndex diagonal = A.getColMap()->getLocalElement(A.getRowMap()->getGlobalElement(i));
-    value(i) = 0;
-    for (auto k = local.graph.row_map(i); k < local.graph.row_map(i + 1); ++k)
-      if (local.graph.entries(k) != diagonal && local.values(k) != 0) value(i) = 1;
-  }
+  const auto out = coupled.getLocalViewDevice(Tpetra::Access::OverwriteAll);
+  Kokkos::parallel_for(
+      "thixis::algebra::coupled_rows", Kokkos::RangePolicy<Node::execution_space>(0, local_rows(A)),
+      MarkCoupled<std::decay_t<decltype(out)>>{A.getLocalMatrixDevice(), A.getRowMap()->getLocalMap(), A.getColMap()->getLocalMap(), out});
   return coupled;
 }
 

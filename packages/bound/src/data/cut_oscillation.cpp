@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "data/on_host.hpp"
 #include "data/sources.hpp"
 #include "thixis/equilibration/cut.hpp"
 #include "thixis/mesh/host.hpp"
@@ -114,24 +115,29 @@ void CutOscillation::sharpen(const scene::Field& force, double time, std::vector
   const reference::Modal modal(q_);
   const int n = modal.size(), flux = 2 * reference::dimension(q_ + 1);
   std::vector<double> density(static_cast<std::size_t>(fine_.cells) * n, 0.0), remainder(fine_.cells, 0.0);
-  const View<double*> values("thixis::bound::force_in_children", quadrature_.largest_block);
+  const View<double*> force_at("thixis::bound::force_in_children", quadrature_.largest_block);
   const auto rule_xi = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), quadrature_.rule_xi);
   const auto at_rule = modal.values(rule_xi.extent_int(0), rule_xi.data());
   comm_.together([&] {
     method::for_each_block(quadrature_, [&](const method::QuadratureBlock& block) {
-      method::evaluate(force, time, block, values);
+      method::evaluate(force, time, block, force_at);
+      const auto offset = on_host(block.offset);
+      const auto own = on_host(block.own_rule);
+      const auto xi = on_host(block.xi);
+      const auto weight = on_host(block.weight);
+      const auto values = on_host(force_at);
       std::vector<double> at_own;
       for (LocalIndex c = 0; c < block.cells; ++c) {
-        const int first = block.offset(c), count = block.offset(c + 1) - first;
-        if (block.own_rule(c) >= 0) at_own = modal.values(count, &block.xi(first, 0));
-        const double* const phi = block.own_rule(c) >= 0 ? at_own.data() : at_rule.data();
+        const int first = offset(c), count = offset(c + 1) - first;
+        if (own(c) >= 0) at_own = modal.values(count, &xi(first, 0));
+        const double* const phi = own(c) >= 0 ? at_own.data() : at_rule.data();
         double* const coefficient = &density[static_cast<std::size_t>(block.first + c) * n];
         for (int i = 0; i < count; ++i)
-          for (int m = 0; m < n; ++m) coefficient[m] += block.weight(first + i) * values(first + i) * phi[i * n + m];
+          for (int m = 0; m < n; ++m) coefficient[m] += weight(first + i) * values(first + i) * phi[i * n + m];
         for (int i = 0; i < count; ++i) {
           double rest = values(first + i);
           for (int m = 0; m < n; ++m) rest -= coefficient[m] * phi[i * n + m] / metric(block.first + c).det;
-          remainder[block.first + c] += block.weight(first + i) * rest * rest;
+          remainder[block.first + c] += weight(first + i) * rest * rest;
         }
       }
     });

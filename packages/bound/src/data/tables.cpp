@@ -4,15 +4,6 @@
 
 namespace thixis::bound {
 
-Matrix matrix(const std::string& label, int rows, int columns, const std::vector<double>& values) {
-  const Kokkos::View<double**, Kokkos::LayoutRight> view(label, rows, columns);
-  const auto host = Kokkos::create_mirror_view(view);
-  for (int i = 0; i < rows; ++i)
-    for (int j = 0; j < columns; ++j) host(i, j) = values[i * columns + j];
-  Kokkos::deep_copy(view, host);
-  return view;
-}
-
 std::vector<double> to_modal(const reference::CellBasis& basis, const reference::Modal& modal) {
   const int n = basis.size();
   std::vector<double> T(n * n, 0.0);

@@ -3,15 +3,16 @@
 #include <vector>
 
 #include "thixis/bound/cell_fields.hpp"
-#include "thixis/equilibration/to_view.hpp"
+#include "thixis/mesh/to_view.hpp"
+#include "thixis/method/cell_functions.hpp"
 #include "thixis/reference/bernstein.hpp"
 #include "thixis/reference/cell_basis.hpp"
 
 /// Small matrices on the reference triangle, flat, row by row.
 namespace thixis::bound {
 
-using equilibration::to_view;
-Matrix matrix(const std::string& label, int rows, int columns, const std::vector<double>& values);
+using mesh::to_view;
+using method::matrix_view;
 
 /// (dim P_p × dim P_p): coefficients in a basis of cells -> modal ones.
 std::vector<double> to_modal(const reference::CellBasis& basis, const reference::Modal& modal);

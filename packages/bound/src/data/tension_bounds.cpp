@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "data/cell_energy.hpp"
+#include "data/on_host.hpp"
+#include "data/tables.hpp"
 #include "thixis/mesh/host.hpp"
 #include "thixis/method/gradient_form.hpp"
 
@@ -50,29 +52,56 @@ std::vector<double> coefficients(const method::Space& space, const scene::Field&
   return c;
 }
 
-/// sum_k B_k/b_k at the points of cell K in place of 1/mu.
-void bound_inverse(const method::CellQuadrature& quadrature, LocalIndex K, const reference::CellBasis& basis, const double* b,
-                   const View<double*>& inverse) {
-  double reciprocal[reference::max_functions];
-  for (int k = 0; k < basis.size(); ++k) reciprocal[k] = 1 / b[k];
-  const PointsOf points(quadrature, K);
-  for (int q = 0; q < points.count; ++q) {
-    const double xi = points.xi(q, 0), eta = points.xi(q, 1), lambda[3] = {1 - xi - eta, xi, eta};
-    inverse(points.first + q) = basis.bernstein().value(reciprocal, lambda);
+/// sum_k B_k/b_k at the points of a cell in place of 1/mu, where all b_k are positive.
+struct BoundInverse {
+  method::CellQuadrature quadrature;
+  reference::Bernstein B;
+  ConstCellTable b;
+  View<double*> inverse;  ///< in and out
+  KOKKOS_FUNCTION void operator()(int K) const {
+    double reciprocal[reference::max_functions];
+    for (int k = 0; k < B.size; ++k) {
+      if (b(K, k) <= 0) return;
+      reciprocal[k] = 1 / b(K, k);
+    }
+    const PointsOf points(quadrature, K);
+    for (int q = 0; q < points.count; ++q) {
+      const double xi = points.xi(q, 0), eta = points.xi(q, 1), lambda[3] = {1 - xi - eta, xi, eta};
+      inverse(points.first + q) = B.value(reciprocal, lambda);
+    }
   }
-}
+};
+
+/// The least and the largest value at the points of a cell.
+struct RangeOfCells {
+  View<const GlobalIndex*> offset;
+  View<const double*> mu;
+  View<double* [2]> range;  ///< out, overwritten
+  KOKKOS_FUNCTION void operator()(int K) const {
+    double least = mu(offset(K)), most = least;
+    for (GlobalIndex p = offset(K) + 1; p < offset(K + 1); ++p) {
+      least = mu(p) < least ? mu(p) : least;
+      most = mu(p) > most ? mu(p) : most;
+    }
+    range(K, 0) = least;
+    range(K, 1) = most;
+  }
+};
 
 TensionBounds at_points(const method::Space& space, const scene::Field& tension) {
   const LocalIndex owned = space.mesh().owned_cells;
   const auto& quadrature = space.quadrature();
-  const auto mu = method::tension_at_points(space.mesh(), quadrature, tension);
+  const View<const double*> mu = method::tension_at_points(space.mesh(), quadrature, tension);
   const View<double*> inverse("thixis::bound::inverse_tension", mu.extent(0));
-  for (std::size_t p = 0; p < mu.extent(0); ++p) inverse(p) = 1 / mu(p);
+  Kokkos::parallel_for(
+      "thixis::bound::inverse_tension", Kokkos::RangePolicy<>(0, mu.extent_int(0)), KOKKOS_LAMBDA(int p) { inverse(p) = 1 / mu(p); });
+  const View<double* [2]> range("thixis::bound::range_of_tension", owned);
+  Kokkos::parallel_for("thixis::bound::range_of_tension", Kokkos::RangePolicy<>(0, owned), RangeOfCells{quadrature.offset, mu, range});
   TensionBounds bounds{std::vector<double>(owned), std::vector<double>(owned), mu, inverse, false};
+  const auto of_cells = on_host(range);
   for (LocalIndex K = 0; K < owned; ++K) {
-    const auto [least, most] = std::minmax_element(mu.data() + quadrature.offset(K), mu.data() + quadrature.offset(K + 1));
-    bounds.least[K] = *least;
-    bounds.most[K] = *most;
+    bounds.least[K] = of_cells(K, 0);
+    bounds.most[K] = of_cells(K, 1);
   }
   return bounds;
 }
@@ -102,8 +131,10 @@ TensionBounds tension_bounds(const method::Space& space, const scene::Field& ten
     }
     bounds.least[K] = *least;
     bounds.most[K] = *most;
-    bound_inverse(space.quadrature(), K, basis, &b[K * n], bounds.inverse);
   }
+  const auto table = matrix_view("thixis::bound::tension_coefficients", owned, n, b);
+  Kokkos::parallel_for("thixis::bound::bound_inverse", Kokkos::RangePolicy<>(0, owned),
+                       BoundInverse{space.quadrature(), basis.bernstein(), table, bounds.inverse});
   bounds.proved = !comm.any(!bounds.proved);
   return bounds;
 }

@@ -10,6 +10,9 @@
 
 namespace thixis::bound {
 
+BlockOnHost::BlockOnHost(const method::QuadratureBlock& block)
+    : cell(on_host(block.cell)), offset(on_host(block.offset)), xi(on_host(block.xi)) {}
+
 OverObstacle::OverObstacle(const method::Space& space, const BoundaryLift& lift, const ContinuousNodes& nodes,
                            const scene::FieldPtr& obstacle, const std::vector<double>& psi, const method::Jumps& jumps)
     : space_(space),
@@ -41,7 +44,7 @@ double OverObstacle::known_as(LocalIndex K) const {
   return (most - least) * mesh::remoteness(3, [&](int a, int d) { return host_.coordinates(host_.cell_vertices(K, a), d); });
 }
 
-double OverObstacle::most(const method::QuadratureBlock& block, LocalIndex k, const View<double*>& value) const {
+double OverObstacle::most(const BlockOnHost& block, LocalIndex k, const mesh::HostView<double*>& value) const {
   double c[reference::max_functions], most = 0;
   polynomial(block.cell(k), c);
   for (int q = block.offset(k); q < block.offset(k + 1); ++q) {
@@ -57,9 +60,11 @@ std::vector<LocalIndex> OverObstacle::find() {
   std::vector<LocalIndex> positions;
   method::for_each_block(all, [&](const method::QuadratureBlock& block) {
     method::evaluate(*obstacle_, 0, block, value);
-    for (LocalIndex k = 0; k < block.cells && block.cell(k) < mesh_.owned_cells; ++k) {
-      const LocalIndex K = block.cell(k);
-      const bool more = most(block, k, value) > 1e-13 * std::max(size_, known_as(K));
+    const BlockOnHost points(block);
+    const mesh::HostView<double*> psi = on_host(value);
+    for (LocalIndex k = 0; k < block.cells && points.cell(k) < mesh_.owned_cells; ++k) {
+      const LocalIndex K = points.cell(k);
+      const bool more = most(points, k, psi) > 1e-13 * std::max(size_, known_as(K));
       deviates_ = deviates_ || more;
       if ((more && !jumps_.at(block.first + k)) || in_layer_[K] >= 0) positions.push_back(block.first + k);
     }
@@ -69,36 +74,39 @@ std::vector<LocalIndex> OverObstacle::find() {
 
 /// D and its derivatives at the points of the cells of a block, and a bound on |D| in each.
 void OverObstacle::tabulate(const method::QuadratureBlock& block, const std::vector<LocalIndex>& positions) {
-  const View<double*> value("thixis::bound::obstacle", block.points), x("thixis::bound::obstacle_x", block.points),
-      y("thixis::bound::obstacle_y", block.points);
-  method::evaluate(*obstacle_, 0, block, value);
-  method::evaluate(*slope_[0], 0, block, x);
-  method::evaluate(*slope_[1], 0, block, y);
+  const auto at_points = [&](const scene::Field& field) {
+    const View<double*> values("thixis::bound::obstacle", block.points);
+    method::evaluate(field, 0, block, values);
+    return on_host(values);
+  };
+  const mesh::HostView<double*> value = at_points(*obstacle_), x = at_points(*slope_[0]), y = at_points(*slope_[1]);
+  const BlockOnHost points(block);
+  const GlobalIndex first = on_host(quadrature_.offset)(block.first);
   for (LocalIndex k = 0; k < block.cells; ++k) {
-    const LocalIndex K = block.cell(k), at = block.first + k, layer = in_layer_[K];
-    place_(K) = at;
-    if (layer >= 0) bound_(at) = lift_.bound_of_difference(layer);
+    const LocalIndex K = points.cell(k), at = block.first + k, layer = in_layer_[K];
+    out_.place(K) = at;
+    if (layer >= 0) out_.bound(at) = lift_.bound_of_difference(layer);
     const auto geometry = mesh::cell_geometry(host_.coordinates, host_.cell_vertices, K);
     double c[reference::max_functions];
     polynomial(K, c);
-    for (int q = block.offset(k); q < block.offset(k + 1); ++q) {
-      const double xi = block.xi(q, 0), eta = block.xi(q, 1), lambda[3] = {1 - xi - eta, xi, eta};
-      const GlobalIndex p = quadrature_.offset(block.first) + q;
+    for (int q = points.offset(k); q < points.offset(k + 1); ++q) {
+      const double xi = points.xi(q, 0), eta = points.xi(q, 1), lambda[3] = {1 - xi - eta, xi, eta};
+      const GlobalIndex p = first + q;
       if (!jumps_.at(positions[at])) {
         double interpolant[3];
         functions_.B.gradient(c, lambda, interpolant);
-        D_(p, 0) = functions_.B.value(c, lambda) - value(q);
-        D_(p, 1) = -x(q);
-        D_(p, 2) = -y(q);
+        out_.at_points(p, 0) = functions_.B.value(c, lambda) - value(q);
+        out_.at_points(p, 1) = -x(q);
+        out_.at_points(p, 2) = -y(q);
         for (int a = 0; a < 3; ++a)
-          for (int d = 0; d < 2; ++d) D_(p, 1 + d) += interpolant[a] * geometry.gradient[a][d];
+          for (int d = 0; d < 2; ++d) out_.at_points(p, 1 + d) += interpolant[a] * geometry.gradient[a][d];
       }
       if (layer >= 0) {
         const auto L = lift_(0, layer, xi, eta);
-        D_(p, 0) += L.value;
-        for (int d = 0; d < 2; ++d) D_(p, 1 + d) += L.gradient[d];
+        out_.at_points(p, 0) += L.value;
+        for (int d = 0; d < 2; ++d) out_.at_points(p, 1 + d) += L.gradient[d];
       }
-      bound_(at) = std::max(bound_(at), std::abs(D_(p, 0)));
+      out_.bound(at) = std::max(out_.bound(at), std::abs(out_.at_points(p, 0)));
     }
   }
 }
@@ -128,7 +136,7 @@ void OverObstacle::mark(const std::vector<LocalIndex>& positions, const std::vec
     }
     obstacle_->evaluate({px.size(), px.data(), py.data()}, 0, of_psi.data());
     for (std::size_t q = 0; q < xi.extent(0); ++q) on_faces[q] -= of_psi[q];
-    mark_held(host_, dirichlet, K, on_faces.data(), 1e-12 * size_, on_held_, static_cast<LocalIndex>(at));
+    mark_held(host_, dirichlet, K, on_faces.data(), 1e-12 * size_, out_.on_held, static_cast<LocalIndex>(at));
   }
 }
 
@@ -139,19 +147,13 @@ Deviation OverObstacle::operator()(const std::vector<bool>& dirichlet) {
   deviation.of_obstacle = comm.any(deviates_ || jumps_.any());
   if (!comm.any(!positions.empty())) return deviation;
   quadrature_ = subset(space_.quadrature(), positions);
-  place_ = nowhere(mesh_);
-  bound_ = View<double*>("thixis::bound::deviation_bound", positions.size());
-  D_ = View<double* [3]>("thixis::bound::deviation", quadrature_.points());
-  on_held_ = View<bool* [3]>("thixis::bound::deviation_on_held", positions.size());
+  out_ = DeviationOnHost(mesh_, positions.size(), quadrature_.points());
   comm.together([&] {
     method::for_each_block(quadrature_, [&](const method::QuadratureBlock& block) { tabulate(block, positions); });
     mark(positions, dirichlet);
   });
   deviation.quadrature = quadrature_;
-  deviation.place = place_;
-  deviation.bound = bound_;
-  deviation.at_points = D_;
-  deviation.on_held = on_held_;
+  out_.commit(deviation);
   return deviation;
 }
 

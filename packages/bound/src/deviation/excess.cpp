@@ -16,26 +16,34 @@ Excess excess_of_majorant(const method::Space& space, const ContinuousNodes& nod
   const auto functions = method::cell_functions(space.basis());
   const reference::Modal modal(space.basis().degree());
   const int n = space.basis().size();
-  Excess excess{nowhere(mesh), CellTable("thixis::bound::excess", positions.size(), n)};
+  const Excess excess{nowhere(mesh), CellTable("thixis::bound::excess", positions.size(), n)};
+  const auto place = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), excess.place);
+  const auto moments = Kokkos::create_mirror_view(excess.moments);
   const auto quadrature = subset(space.quadrature(), positions);
   const View<double*> psi("thixis::bound::obstacle", quadrature.largest_block);
   method::for_each_block(quadrature, [&](const method::QuadratureBlock& block) {
     method::evaluate(obstacle, 0, block, psi);
+    const auto cell = on_host(block.cell);
+    const auto offset = on_host(block.offset);
+    const auto xi = on_host(block.xi);
+    const auto weight = on_host(block.weight), value = on_host(View<const double*>(psi));
     for (LocalIndex k = 0; k < block.cells; ++k) {
-      const LocalIndex K = block.cell(k), at = block.first + k;
-      excess.place(K) = at;
+      const LocalIndex K = cell(k), at = block.first + k;
+      place(K) = at;
       double local[reference::max_functions], c[reference::max_functions], area = 0;
       for (int l = 0; l < n; ++l) local[l] = majorant[of_cells(K, l)];
       functions.to_bernstein(local, c);
-      for (int q = block.offset(k); q < block.offset(k + 1); ++q) area += block.weight(q);
-      for (int q = block.offset(k); q < block.offset(k + 1); ++q) {
-        const double xi = block.xi(q, 0), eta = block.xi(q, 1), lambda[3] = {1 - xi - eta, xi, eta};
-        const double above = block.weight(q) / (2 * area) * (functions.B.value(c, lambda) - psi(q));
-        const auto phi = modal.values(1, &block.xi(q, 0));
-        for (int m = 0; m < n; ++m) excess.moments(at, m) += above * phi[m];
+      for (int q = offset(k); q < offset(k + 1); ++q) area += weight(q);
+      for (int q = offset(k); q < offset(k + 1); ++q) {
+        const double lambda[3] = {1 - xi(q, 0) - xi(q, 1), xi(q, 0), xi(q, 1)};
+        const double above = weight(q) / (2 * area) * (functions.B.value(c, lambda) - value(q));
+        const auto phi = modal.values(1, &xi(q, 0));
+        for (int m = 0; m < n; ++m) moments(at, m) += above * phi[m];
       }
     }
   });
+  Kokkos::deep_copy(excess.place, place);
+  Kokkos::deep_copy(excess.moments, moments);
   return excess;
 }
 

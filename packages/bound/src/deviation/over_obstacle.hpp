@@ -1,11 +1,21 @@
 #pragma once
 #include <vector>
 
+#include "deviation/deviation_points.hpp"
 #include "lift/boundary_lift.hpp"
 #include "thixis/mesh/host.hpp"
+#include "thixis/mesh/to_view.hpp"
 #include "thixis/method/cell_functions.hpp"
 
 namespace thixis::bound {
+
+/// What is read of a block of points.
+struct BlockOnHost {
+  mesh::ConstHostView<const LocalIndex*> cell;
+  mesh::ConstHostView<const int*> offset;
+  mesh::ConstHostView<const double* [2]> xi;
+  explicit BlockOnHost(const method::QuadratureBlock& block);
+};
 
 /// D = L_1 + psi_I - psi, cell by cell.
 class OverObstacle {
@@ -24,8 +34,8 @@ class OverObstacle {
     functions_.to_bernstein(local, c);
   }
   double known_as(LocalIndex K) const;
-  /// psi - psi_I at the points of cell k of a block; the largest.
-  double most(const method::QuadratureBlock& block, LocalIndex k, const View<double*>& value) const;
+  /// |psi - psi_I| at the points of cell k of a block; the largest.
+  double most(const BlockOnHost& block, LocalIndex k, const mesh::HostView<double*>& value) const;
   /// Positions of the cells with a deviation; sets `deviates_`.
   std::vector<LocalIndex> find();
   void tabulate(const method::QuadratureBlock& block, const std::vector<LocalIndex>& positions);
@@ -35,7 +45,7 @@ class OverObstacle {
   const mesh::Mesh& mesh_;
   mesh::HostMesh host_;
   const BoundaryLift& lift_;
-  Kokkos::View<const LocalIndex**, Kokkos::LayoutRight, Kokkos::HostSpace> of_cells_;
+  mesh::ConstHostView<const LocalIndex**> of_cells_;
   const scene::FieldPtr& obstacle_;
   const std::vector<double>& psi_;
   const method::Jumps& jumps_;
@@ -46,10 +56,7 @@ class OverObstacle {
   bool deviates_ = false;
 
   method::CellQuadrature quadrature_;
-  View<LocalIndex*> place_;
-  View<double*> bound_;
-  View<double* [3]> D_;
-  View<bool* [3]> on_held_;
+  DeviationOnHost out_;
 };
 
 }  // namespace thixis::bound

@@ -94,7 +94,7 @@ void FeasiblePair::Impl::set_kernel() {
   kernel.density.to_monomials = monomials;
   const int n = space.basis().size();
   const reference::Modal orthonormal(space.basis().degree());
-  modal = matrix("thixis::bound::to_modal", n, n, to_modal(space.basis(), orthonormal));
+  modal = matrix_view("thixis::bound::to_modal", n, n, to_modal(space.basis(), orthonormal));
   if (!space.conforming()) kernel.of_cells_u = space.coefficients().element_entries;
 }
 

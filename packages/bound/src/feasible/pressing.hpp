@@ -1,5 +1,4 @@
 #pragma once
-#include <array>
 #include <vector>
 
 #include "feasible/feasible_kernel.hpp"
@@ -32,18 +31,15 @@ class Pressing {
  private:
   void integrate_functions(const FeasibleParts& kernel, const std::vector<bool>& dirichlet);
   void integrate_deviation(const FeasibleParts& kernel, const std::vector<bool>& keeps);
-  /// The sums over all ranks of what cells add to the columns, by local vertex.
-  using Columns = std::array<std::vector<double>, 4>;
-  Columns sum(const Columns& columns) const;
-  Columns columns() const;
+  /// The sums over all ranks of what cells have added at their local vertices.
+  void add_up(algebra::MultiVector& columns) const;
 
   const mesh::Mesh& mesh_;
   Teuchos::RCP<const algebra::Import> import_;  ///< vertices of this rank's own -> all local ones
-  std::vector<LocalIndex> own_;
-  double positive_[3] = {};                      ///< ∫ max(psi_a, 0) over the reference triangle, times 2
-  std::vector<double> stiffness_;                ///< by vertex: |||psi_a|||², 0 where the vertex is held
-  View<const LocalIndex*> place_;                ///< of D
-  std::vector<double> mean_of_positive_, cost_;  ///< by place: the mean of max(D, 0); by vertex: |||D|||², 0: not to be followed
+  double positive_[3] = {};                     ///< ∫ max(psi_a, 0) over the reference triangle, times 2
+  View<double*> stiffness_;                     ///< by vertex: |||psi_a|||², 0 where the vertex is held
+  View<const LocalIndex*> place_;               ///< of D
+  View<double*> mean_of_positive_, cost_;       ///< by place: the mean of max(D, 0); by vertex: |||D|||², 0: not to be followed
   View<double*> closed_, followed_;
 };
 

@@ -12,8 +12,8 @@ CellShares::CellShares(const method::Space& space, int q)
     : space_(space),
       n_(reference::dimension(q)),
       moments_("thixis::bound::moments", space.cells().extent(0), space.basis().size()),
-      from_moments_(matrix("thixis::bound::from_moments", space.basis().size(), space.basis().size(),
-                           from_moments(space.basis(), reference::Modal(space.basis().degree())))) {}
+      from_moments_(matrix_view("thixis::bound::from_moments", space.basis().size(), space.basis().size(),
+                                from_moments(space.basis(), reference::Modal(space.basis().degree())))) {}
 
 const CellTable& CellShares::operator()(const algebra::Vector& R) const {
   space_.share(R, moments_);

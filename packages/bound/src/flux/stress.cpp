@@ -23,8 +23,8 @@ std::vector<double> reference_gradient(const reference::CellBasis& basis) {
 
 StressBase::StressBase(const method::Space& space) : cells_(space.cells().extent_int(0)), owned_(space.mesh().owned_cells) {
   gradient_.entries = space.coefficients().element_entries;
-  gradient_.D = matrix("thixis::bound::gradient", 2 * reference::dimension(space.basis().degree() - 1), space.basis().size(),
-                       reference_gradient(space.basis()));
+  gradient_.D = matrix_view("thixis::bound::gradient", 2 * reference::dimension(space.basis().degree() - 1), space.basis().size(),
+                            reference_gradient(space.basis()));
   gradient_.metric = metrics(space.mesh(), space.cells());
 }
 

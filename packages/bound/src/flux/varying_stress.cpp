@@ -95,9 +95,9 @@ class VaryingStress final : public StressBase {
     Kokkos::deep_copy(factor_, host);
     const auto& quadrature = space.quadrature();
     const reference::Modal modal(std::max(q + 1, space.basis().degree()));
-    const auto table = [&](const std::string& label, const View<const double* [2]>& points) {
+    const auto table = [&](const char* label, const View<const double* [2]>& points) {
       const auto xi = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), points);
-      return matrix(label, xi.extent_int(0), modal.size(), modal.values(xi.extent_int(0), xi.data()));
+      return matrix_view(label, xi.extent_int(0), modal.size(), modal.values(xi.extent_int(0), xi.data()));
     };
     points_ = {quadrature, bounds.at_points, bounds.inverse, table("thixis::bound::at_rule", quadrature.rule_xi),
                table("thixis::bound::at_own", quadrature.own_xi)};

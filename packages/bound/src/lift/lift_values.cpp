@@ -4,6 +4,7 @@
 #include "data/on_host.hpp"
 #include "lift/boundary_lift.hpp"
 #include "thixis/mesh/geometry.hpp"
+#include "thixis/mesh/to_view.hpp"
 
 /// What is asked of a lift once it is known.
 namespace thixis::bound {
@@ -83,7 +84,7 @@ View<double* [2]> BoundaryLift::change(const BoundaryLift* before) const {
     const double area = mesh::cell_area(host_.coordinates, host_.cell_vertices, K);
     for (int alpha = 0; alpha < count_; ++alpha) {
       const LiftInCell& lift = layer.lift_[alpha][k];
-      const auto& weight = lift.faces > 0 ? face_weight : inner_weight;
+      const mesh::ConstHostView<const double*> weight = lift.faces > 0 ? face_weight : inner_weight;
       const LiftTable& values = lift.faces > 0 ? of_faces : of_inside;
       values.evaluate(lift, L);
       if (then && !empty_) values.evaluate(before->lift_[alpha][k], other);

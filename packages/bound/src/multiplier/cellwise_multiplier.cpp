@@ -1,4 +1,5 @@
 #include "data/tables.hpp"
+#include "multiplier/contact_vectors.hpp"
 #include "multiplier/held_moments.hpp"
 #include "multiplier/multiplier.hpp"
 #include "thixis/algebra/tpetra.hpp"
@@ -46,17 +47,12 @@ class CellwiseMultiplier final : public NonNegativeMultiplier {
     const auto& basis = space.basis();
     const reference::Modal modal(basis.degree());
     const auto B = reference::bernstein(space.flux_degree());
-    from_moments_ = matrix("thixis::bound::from_moments", basis.size(), basis.size(), from_moments(basis, modal));
-    to_bernstein_ = matrix("thixis::bound::to_bernstein", B.size, B.size, reference::modal_to_bernstein(B));
+    from_moments_ = matrix_view("thixis::bound::from_moments", basis.size(), basis.size(), from_moments(basis, modal));
+    to_bernstein_ = matrix_view("thixis::bound::to_bernstein", B.size, B.size, reference::modal_to_bernstein(B));
   }
 
   void operator()(const algebra::Vector& moments, const CellTable& density, const CellTable&) const override {
-    algebra::Vector all(space_.map());
-    {
-      const auto in = algebra::host_view(moments);
-      const auto out = algebra::host_view(all);
-      for (std::size_t l = 0; l < in.extent(0); ++l) out(l) = in(l);
-    }
+    const algebra::Vector all = at_unknowns(space_, moments);
     const auto at_entries = space_.complete(all, method::Coefficients("thixis::bound::nothing", space_.coefficients().entries.size()));
     held_(at_entries);
     Kokkos::parallel_for(

@@ -130,8 +130,15 @@ HeldMoments::HeldMoments(const method::Space& space) : entries_(space.coefficien
 }
 
 void HeldMoments::operator()(const View<const double*>& moments) const {
-  Kokkos::parallel_for("thixis::bound::held_moments", Kokkos::RangePolicy<>(0, cells_.extent(0)),
-                       Fill{entries_, cells_, pattern_, fit_, held_, moments, of_cells_});
+  Fill kernel;
+  kernel.entries = entries_;
+  kernel.cells = cells_;
+  kernel.pattern = pattern_;
+  kernel.fit = fit_;
+  kernel.held = held_;
+  kernel.moment = moments;
+  kernel.out = of_cells_;
+  Kokkos::parallel_for("thixis::bound::held_moments", Kokkos::RangePolicy<>(0, cells_.extent(0)), kernel);
 }
 
 }  // namespace thixis::bound

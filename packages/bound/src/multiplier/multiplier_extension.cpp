@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "data/on_host.hpp"
 #include "data/tables.hpp"
 #include "thixis/algebra/tpetra.hpp"
 
@@ -9,11 +10,6 @@ namespace thixis::bound {
 namespace {
 
 using algebra::MultiVector;
-
-template <class V>
-auto copy(const V& view) {
-  return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), view);
-}
 
 /// Adds the polynomial `from` in x' to `to` in x, x' = ratio x + offset, y' = ratio y + offset, in the order of monomials().
 template <class From>
@@ -40,14 +36,14 @@ MultiplierExtension::MultiplierExtension(const method::Space& space, const Verte
       around_(patches.size()),
       generation_(space.mesh().vertices, -1),
       diameter_(space.mesh().vertices, 0.0),
-      place_(copy(space.mesh().coordinates)) {
+      place_(on_host(space.mesh().coordinates)) {
   const mesh::Mesh& mesh = space.mesh();
-  const auto vertex = copy(patches.vertex);
+  const auto vertex = on_host(patches.vertex);
   patch_vertex_.assign(vertex.data(), vertex.data() + patches.size());
   for (LocalIndex a = 0; a < patches.size(); ++a) patch_of_vertex_[patch_vertex_[a]] = a;
 
-  const auto cells = copy(space.cells());
-  const auto corners = copy(mesh.cell_vertices);
+  const auto cells = on_host(space.cells());
+  const auto corners = on_host(mesh.cell_vertices);
   std::vector<bool> met(mesh.vertices, false);
   std::vector<GlobalIndex> own_ids, ids;
   for (std::size_t k = 0; k < cells.extent(0); ++k)
@@ -62,8 +58,8 @@ MultiplierExtension::MultiplierExtension(const method::Space& space, const Verte
       own_ids.push_back(mesh.vertex_id[v]);
     }
   import_ = Teuchos::rcp(new algebra::Import(algebra::map_of(own_ids, comm_), algebra::map_of(ids, comm_)));
-  const auto offset = copy(patches.offset), cell = copy(patches.cell);
-  const auto fit = copy(fits.fit_offset), nodes = copy(fits.node_offset);
+  const auto offset = on_host(patches.offset), cell = on_host(patches.cell);
+  const auto fit = on_host(fits.fit_offset), nodes = on_host(fits.node_offset);
   for (LocalIndex a = 0; a < patches.size(); ++a) {
     if (degree_ > 0 ? fit(a + 1) > fit(a) : nodes(a + 1) > nodes(a)) continue;
     for (LocalIndex e = offset(a); e < offset(a + 1); ++e)
@@ -75,7 +71,7 @@ MultiplierExtension::MultiplierExtension(const method::Space& space, const Verte
 
 void MultiplierExtension::find_generations(const Fits& fits) {
   MultiVector own(import_->getSourceMap(), 2), all(import_->getTargetMap(), 2);
-  const auto diameter = copy(fits.diameter);
+  const auto diameter = on_host(fits.diameter);
   for (int round = 0;; ++round) {
     {
       const auto out = own.getLocalViewHost(Tpetra::Access::OverwriteAll);
@@ -116,8 +112,8 @@ MultiplierExtension::Around MultiplierExtension::sources(LocalIndex a, int round
 void MultiplierExtension::operator()(const CellTable& coefficients, const View<double*>& mean) const {
   const bool complete = std::all_of(around_.begin(), around_.end(), [](const Around& around) { return around.empty(); });
   if (rounds_ == 0 && complete) return;
-  const auto c = copy(coefficients);
-  const auto m = copy(mean);
+  const auto c = on_host(coefficients);
+  const auto m = on_host(mean);
   for (std::size_t a = 0; a < around_.size(); ++a)
     if (!around_[a].empty()) {
       for (int b = 0; b < columns_; ++b) c(a, b) = 0;

@@ -1,20 +1,12 @@
 #include "multiplier/multiplier_fit.hpp"
 
-#include <algorithm>
-
+#include "multiplier/contact_vectors.hpp"
 #include "thixis/algebra/tpetra.hpp"
 
 namespace thixis::bound {
 namespace {
 
 using algebra::Vector;
-
-/// Values at contact points, 0 at other unknowns.
-void extend(const Vector& at_points, Vector& all) {
-  const auto in = algebra::host_view(at_points);
-  const auto out = algebra::host_view(all);
-  for (std::size_t l = 0; l < in.extent(0); ++l) out(l) = in(l);
-}
 
 struct AddHeld {
   ConstCellTable held;
@@ -54,16 +46,7 @@ MultiplierFit::MultiplierFit(const method::Space& space, int q, const View<const
   }
 }
 
-/// M_l = D_l max(X3_l, 0) on points(), -D_l min(X3_l, 0) on map().
-void MultiplierFit::split(const Vector& X3, Vector& above, Vector& below) const {
-  const auto lambda_l = algebra::host_view(X3), D = algebra::host_view(space_.pairing());
-  const auto plus = algebra::host_overwrite(above);
-  const auto minus = algebra::host_view(below);
-  for (std::size_t l = 0; l < lambda_l.extent(0); ++l) {
-    plus(l) = D(l) * std::max(lambda_l(l), 0.0);
-    minus(l) = -D(l) * std::min(lambda_l(l), 0.0);
-  }
-}
+void MultiplierFit::split(const Vector& X3, Vector& above, Vector& below) const { bound::split(space_, X3, above, below); }
 
 void MultiplierFit::operator()(const Vector& X3, Vector& above, Vector& cut_off) {
   split(X3, above, cut_off);
@@ -72,8 +55,7 @@ void MultiplierFit::operator()(const Vector& X3, Vector& above, Vector& cut_off)
 }
 
 void MultiplierFit::compare(const Vector& above) {
-  Vector on_map(space_.map());
-  extend(above, on_map);
+  const Vector on_map = at_unknowns(space_, above);
   if (vanishes(on_map)) {
     Kokkos::deep_copy(positive_, 0);
     return Kokkos::deep_copy(rest_, 0);
@@ -92,12 +74,7 @@ std::size_t MultiplierFit::bytes() const {
 
 void contact_at_points(const method::Space& space, const CellShares& shares, const Vector& above, const Vector& gap,
                        const View<double*>& out) {
-  Vector product(space.map());
-  {
-    const auto M = algebra::host_view(above), K = algebra::host_view(gap);
-    const auto on_points = algebra::host_view(product);
-    for (std::size_t l = 0; l < M.extent(0); ++l) on_points(l) = M(l) * std::max(K(l), 0.0);
-  }
+  const Vector product = contact_products(space, above, gap);
   if (vanishes(product)) return Kokkos::deep_copy(out, 0);
   const CellTable& part = shares(product);
   Kokkos::parallel_for(

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "data/on_host.hpp"
 #include "data/tables.hpp"
 #include "multiplier/least_squares.hpp"
 #include "thixis/mesh/host.hpp"
@@ -44,14 +45,6 @@ std::vector<double> lattice_to_moments(const reference::CellBasis& basis, const 
   return moments;
 }
 
-template <class T>
-using OnHost = Kokkos::View<T, Kokkos::LayoutRight, Kokkos::HostSpace>;
-
-template <class V>
-auto copy(const V& view) {
-  return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), view);
-}
-
 /// Goes from patch to patch, on the host.
 class Builder {
  public:
@@ -59,14 +52,14 @@ class Builder {
       : basis_(space.basis()),
         B_(reference::bernstein(basis_.degree() - 1)),
         host_(mesh::on_host(space.mesh())),
-        cells_(copy(space.cells())),
-        entries_(copy(space.coefficients().element_entries)),
-        column_(copy(space.numbering().column_of_entry)),
-        offset_(copy(patches.offset)),
-        cell_(copy(patches.cell)),
-        corner_(copy(patches.corner)),
-        vertex_(copy(patches.vertex)),
-        metric_(copy(metric)),
+        cells_(on_host(space.cells())),
+        entries_(on_host(space.coefficients().element_entries)),
+        column_(on_host(space.numbering().column_of_entry)),
+        offset_(on_host(patches.offset)),
+        cell_(on_host(patches.cell)),
+        corner_(on_host(patches.corner)),
+        vertex_(on_host(patches.vertex)),
+        metric_(on_host(metric)),
         hat_(hat_coefficients(basis_)),
         lattice_(bernstein_lattice(B_)),
         to_moments_(lattice_to_moments(basis_, B_)),
@@ -167,12 +160,12 @@ class Builder {
   const reference::CellBasis& basis_;
   reference::Bernstein B_;
   mesh::HostMesh host_;
-  OnHost<const LocalIndex*> cells_;
-  OnHost<const LocalIndex**> entries_;
-  OnHost<const LocalIndex*> column_, offset_, cell_;
-  OnHost<const int*> corner_;
-  OnHost<const LocalIndex*> vertex_;
-  OnHost<const Metric*> metric_;
+  mesh::ConstHostView<const LocalIndex*> cells_;
+  mesh::ConstHostView<const LocalIndex**> entries_;
+  mesh::ConstHostView<const LocalIndex*> column_, offset_, cell_;
+  mesh::ConstHostView<const int*> corner_;
+  mesh::ConstHostView<const LocalIndex*> vertex_;
+  mesh::ConstHostView<const Metric*> metric_;
   std::vector<double> hat_, lattice_, to_moments_, A_;
   std::vector<LocalIndex> local_;  ///< entry -> its number among all functions of patches, during its patch
   std::vector<LocalIndex> node_, node_offset_{0}, fit_offset_{0};

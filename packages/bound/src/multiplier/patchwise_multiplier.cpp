@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "data/tables.hpp"
+#include "multiplier/contact_vectors.hpp"
 #include "multiplier/multiplier.hpp"
 #include "multiplier/multiplier_extension.hpp"
 #include "multiplier/multiplier_fits.hpp"
@@ -43,12 +44,7 @@ class PatchwiseMultiplier final : public NonNegativeMultiplier {
 
   void operator()(const algebra::Vector& moments, const CellTable& density, const CellTable& patch) const override {
     // values at contact points as coefficients: u = moments at the unknowns, zero at held ones
-    algebra::Vector all(space_.map());
-    {
-      const auto in = algebra::host_view(moments);
-      const auto out = algebra::host_view(all);
-      for (std::size_t l = 0; l < in.extent(0); ++l) out(l) = in(l);
-    }
+    const algebra::Vector all = at_unknowns(space_, moments);
     const auto at_entries = space_.complete(all, method::Coefficients("thixis::bound::nothing", space_.coefficients().entries.size()));
     space_.share(all, shared_);
     const auto shared = shared_, of_mean = of_mean_;
@@ -84,8 +80,8 @@ class PatchwiseMultiplier final : public NonNegativeMultiplier {
   void tabulate() {
     const reference::Modal modal(q_ + 1);
     const int n = B_.size, modes = reference::dimension(q_), wide = modal.size();
-    limit_.lattice = matrix("thixis::bound::lattice", n, 3, bernstein_lattice(B_));
-    limit_.from_lattice = matrix("thixis::bound::from_lattice", n, n, bound::from_lattice(B_));
+    limit_.lattice = matrix_view("thixis::bound::lattice", n, 3, bernstein_lattice(B_));
+    limit_.from_lattice = matrix_view("thixis::bound::from_lattice", n, n, bound::from_lattice(B_));
     const auto T = bernstein_to_modal(B_, modal, wide);
     const Kokkos::View<double***, Kokkos::LayoutRight> hat_modal("thixis::bound::hat_modal", 3, modes, n);
     const auto host = Kokkos::create_mirror_view(hat_modal);
@@ -98,7 +94,7 @@ class PatchwiseMultiplier final : public NonNegativeMultiplier {
     }
     Kokkos::deep_copy(hat_modal, host);
     limit_.hat_modal = hat_modal;
-    limit_.hat_integral = matrix("thixis::bound::hat_integral", 3, n, integral);
+    limit_.hat_integral = matrix_view("thixis::bound::hat_integral", 3, n, integral);
   }
 
   /// The mean of lambda in a cell is that of the values moment / (1, psi_l) of its free functions, with weights (1, psi_l)_K: exact for

@@ -1,8 +1,5 @@
 #include "published/published_terms.hpp"
 
-#include <algorithm>
-
-#include "data/on_host.hpp"
 #include "data/tables.hpp"
 #include "estimate/sums.hpp"
 #include "thixis/reference/quadrature.hpp"
@@ -15,7 +12,7 @@ CellTable of_vertices(const method::Space& space, const Coefficients& lambda, in
   const auto& basis = space.basis();
   const int functions = basis.size(), n = reference::dimension(q);
   const reference::Modal modal(basis.degree());
-  const auto T = matrix("thixis::bound::to_modal", functions, functions, to_modal(basis, modal));
+  const auto T = matrix_view("thixis::bound::to_modal", functions, functions, to_modal(basis, modal));
   const auto times = times_hats(q);
   const auto metric = metrics(space.mesh(), space.cells());
   const auto entries = space.coefficients().element_entries;
@@ -84,7 +81,7 @@ Integrals integrals(const method::Space& space, const Coefficients& lambda, cons
   IntegralTerms terms;
   terms.entries = space.coefficients().element_entries;
   terms.metric = metrics(space.mesh(), space.cells());
-  terms.value = matrix("thixis::bound::published_rule", rule.size(), space.basis().size(), table.value);
+  terms.value = matrix_view("thixis::bound::published_rule", rule.size(), space.basis().size(), table.value);
   terms.weight = to_view("thixis::bound::published_weight", rule.weight);
   terms.lambda = lambda;
   terms.other = other;
@@ -97,24 +94,23 @@ Integrals integrals(const method::Space& space, const Coefficients& lambda, cons
 
 Coefficients closing(const method::Space& space, const Coefficients& gap, const std::vector<double>& to) {
   const int n = space.basis().size();
-  const auto from = reference::inverse(n, to);
-  const auto entries = on_host(space.coefficients().element_entries);
-  const auto g = on_host(gap);
+  const auto there = matrix_view("thixis::bound::to_compare", n, n, to),
+             back = matrix_view("thixis::bound::from_compared", n, n, reference::inverse(n, to));
+  const Kokkos::View<const LocalIndex**, Kokkos::LayoutRight> entries = space.coefficients().element_entries;
   const Coefficients closed("thixis::bound::closing", gap.extent(0));
-  const auto out = Kokkos::create_mirror_view(closed);
-  for (std::size_t k = 0; k < entries.extent(0); ++k) {
-    double c[reference::max_functions] = {};
-    for (int b = 0; b < n; ++b) {
-      for (int l = 0; l < n; ++l) c[b] += to[b * n + l] * g(entries(k, l));
-      c[b] = std::max(-c[b], 0.0);
-    }
-    for (int l = 0; l < n; ++l) {
-      double value = 0;
-      for (int b = 0; b < n; ++b) value += from[l * n + b] * c[b];
-      out(entries(k, l)) = value;
-    }
-  }
-  Kokkos::deep_copy(closed, out);
+  Kokkos::parallel_for(
+      "thixis::bound::closing", Kokkos::RangePolicy<>(0, entries.extent_int(0)), KOKKOS_LAMBDA(int k) {
+        double c[reference::max_functions] = {};
+        for (int b = 0; b < n; ++b) {
+          for (int l = 0; l < n; ++l) c[b] += there(b, l) * gap(entries(k, l));
+          c[b] = c[b] < 0 ? -c[b] : 0;
+        }
+        for (int l = 0; l < n; ++l) {
+          double value = 0;
+          for (int b = 0; b < n; ++b) value += back(l, b) * c[b];
+          Kokkos::atomic_exchange(&closed(entries(k, l)), value);  // cells that share an entry agree on it
+        }
+      });
   return closed;
 }
 

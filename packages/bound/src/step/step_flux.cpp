@@ -52,7 +52,7 @@ struct RestOfRate {
 StepFlux::StepFlux(const BoundParts& parts) {
   const method::Space& space = parts.space;
   const int functions = space.basis().size();
-  modal_ = matrix("thixis::bound::to_modal", functions, functions, to_modal(space.basis(), reference::Modal(space.basis().degree())));
+  modal_ = matrix_view("thixis::bound::to_modal", functions, functions, to_modal(space.basis(), reference::Modal(space.basis().degree())));
   remaining_ = CellTable("thixis::bound::remaining", parts.owned(), functions);
   extra_ = CellTable("thixis::bound::extra_flux", parts.owned(), 2 * reference::dimension(parts.q + 1));
   for (int alpha = 0; alpha < parts.problem.count; ++alpha) {
@@ -69,8 +69,15 @@ void StepFlux::operator()(BoundParts& parts, const StepBegin& before, const Iter
   Membrane& of = of_[alpha];
   const auto& u = iterate.u[alpha];
   lift_residuals(parts, before.tau(), iterate, way, alpha, cut_off);
-  Kokkos::parallel_for("thixis::bound::rate", Kokkos::RangePolicy<>(0, of.rate.extent_int(0)),
-                       Rate{parts.space.coefficients().element_entries, u, then.u, modal_, parts.metric, before.tau(), of.rate});
+  Rate rate;
+  rate.entries = parts.space.coefficients().element_entries;
+  rate.u = u;
+  rate.before = then.u;
+  rate.modal = modal_;
+  rate.metric = parts.metric;
+  rate.tau = before.tau();
+  rate.rate = of.rate;
+  Kokkos::parallel_for("thixis::bound::rate", Kokkos::RangePolicy<>(0, of.rate.extent_int(0)), rate);
   (*m.stress)(u, m.w);
   parts.balance(iterate, alpha, of.rate);
   add_moved(parts, before, way, alpha);

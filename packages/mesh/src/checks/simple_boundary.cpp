@@ -39,7 +39,7 @@ std::string at(const Boundary& boundary, LocalIndex v) {
 }
 
 void require_vertices_off_faces(const Boundary& boundary, const std::string& name) {
-  const auto& x = boundary.x;
+  const HostView<double* [2]>& x = boundary.x;
   // A vertex can lie on a face only if both have the same projection on a line; an unlikely direction keeps the candidates few.
   const double dx = std::cos(1.0), dy = std::sin(1.0);
   const auto projection = [&](LocalIndex v) { return dx * x(v, 0) + dy * x(v, 1); };

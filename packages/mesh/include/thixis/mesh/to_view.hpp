@@ -3,9 +3,13 @@
 #include <string>
 #include <vector>
 
-#include "thixis/equilibration/cell_fields.hpp"
+#include "thixis/mesh/mesh.hpp"
 
-namespace thixis::equilibration {
+namespace thixis::mesh {
+
+/// A mirror that is only read.
+template <class Data>
+using ConstHostView = Kokkos::View<Data, Kokkos::LayoutRight, Kokkos::HostSpace>;
 
 /// An array of the host as a View.
 template <class T>
@@ -17,4 +21,4 @@ View<T*> to_view(const std::string& label, const std::vector<T>& values) {
   return view;
 }
 
-}  // namespace thixis::equilibration
+}  // namespace thixis::mesh
