@@ -5,8 +5,7 @@
 namespace thixis::bound {
 
 /// D of two membranes: in the layer of the lift, at the points of a composite rule. On held faces D up to `noise` is none.
-Deviation deviation_of_membranes(const method::Space& space, const BoundaryLift& lift, const std::vector<bool>& dirichlet,
-                                 double noise);
+Deviation deviation_of_membranes(const method::Space& space, const BoundaryLift& lift, const std::vector<bool>& dirichlet, double noise);
 
 /// D over an obstacle, at the points of the space's quadrature, which knows where psi has its kinks. Nothing where psi is its interpolant
 /// to round-off. The gradient of psi is taken by differences. `psi`: coefficients of the interpolant; where psi jumps inside a cell, of its

@@ -2,7 +2,7 @@
 
 #include "checks/membrane_checks.hpp"
 #include "level/membrane_level.hpp"
-#include "thixis/method/values_at.hpp"
+#include "thixis/method/measures.hpp"
 
 namespace thixis::membranes {
 
