@@ -6,8 +6,7 @@ namespace thixis::dg {
 
 using PointValues = View<double*>;  ///< (face, q), flat
 
-/// The points of the rule on the faces first + e, e < count, from the lower to the higher vertex id. With a side s they are so little
-/// inside K+ (0) or K- (1), or the one cell of the face, that a function which jumps across F shows its trace from there.
+/// Points of the rule on faces: (face, q), flat.
 struct FacePoints {
   PointValues x, y;
   FacePoints() = default;
@@ -16,7 +15,9 @@ struct FacePoints {
   /// Throws on this rank only.
   PointValues values(const scene::Field& field, double t) const;
 };
-constexpr int on_face = -1;
+constexpr int on_face = -1;  ///< a side of `place`
+/// points <- those of the rule on the faces first + e, e < count, from the lower to the higher vertex id. side: on_face, or so little
+/// inside K+ (0), K- (1), or the one cell of the face, that a function which jumps across F shows its trace from there.
 void place(const mesh::Mesh& mesh, const Faces& faces, const Traces& traces, int side, LocalIndex first, LocalIndex count,
            const FacePoints& points);
 

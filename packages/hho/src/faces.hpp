@@ -16,7 +16,7 @@ struct Face {
 /// The faces of the patch cells, in the order of their entries.
 std::vector<Face> faces_of(const method::Space& space);
 
-/// Some of them, with the coefficients of the projection of a function.
+/// Some of the faces of a space, with the coefficients of the projection of a function.
 struct Projected {
   View<const LocalIndex*> number;  ///< among the faces
   View<const LocalIndex*> face, entry;
@@ -25,7 +25,7 @@ struct Projected {
 
   LocalIndex size() const { return face.extent_int(0); }
 };
-/// Throws on this rank only.
+/// The projection of g(·, t) to the polynomials on the faces at the positions `wanted` of `faces`. Throws on this rank only.
 Projected project(const method::Space& space, const std::vector<Face>& faces, const std::vector<LocalIndex>& wanted, const scene::Field& g,
                   double t);
 

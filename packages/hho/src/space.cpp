@@ -5,7 +5,7 @@
 #include "layout.hpp"
 #include "reference_cell.hpp"
 #include "thixis/algebra/tpetra.hpp"
-#include "thixis/mesh/geometry.hpp"
+#include "thixis/mesh/host.hpp"
 #include "thixis/mesh/to_view.hpp"
 
 namespace thixis::hho {

@@ -23,7 +23,7 @@ OverObstacle::OverObstacle(const method::Space& space, const BoundaryLift& lift,
       obstacle_(obstacle),
       psi_(psi),
       jumps_(jumps),
-      functions_(method::cell_functions(space.basis())),
+      B_(space.basis().bernstein()),
       in_layer_(mesh_.owned_cells, -1),
       size_(obstacle->cancelled()) {
   const auto layer = on_host(lift.cells());
@@ -37,7 +37,7 @@ OverObstacle::OverObstacle(const method::Space& space, const BoundaryLift& lift,
 /// psi at rounded places is known as numbers of that size are.
 double OverObstacle::known_as(LocalIndex K) const {
   double least = psi_[of_cells_(K, 0)], most = least;
-  for (int l = 1; l < functions_.size(); ++l) {
+  for (int l = 1; l < space_.basis().size(); ++l) {
     least = std::min(least, psi_[of_cells_(K, l)]);
     most = std::max(most, psi_[of_cells_(K, l)]);
   }
@@ -49,7 +49,7 @@ double OverObstacle::most(const BlockOnHost& block, LocalIndex k, const mesh::Ho
   polynomial(block.cell(k), c);
   for (int q = block.offset(k); q < block.offset(k + 1); ++q) {
     const double xi = block.xi(q, 0), eta = block.xi(q, 1), lambda[3] = {1 - xi - eta, xi, eta};
-    most = std::max(most, std::abs(value(q) - functions_.B.value(c, lambda)));
+    most = std::max(most, std::abs(value(q) - B_.value(c, lambda)));
   }
   return most;
 }
@@ -73,7 +73,8 @@ std::vector<LocalIndex> OverObstacle::find() {
 }
 
 /// D and its derivatives at the points of the cells of a block, and a bound on |D| in each.
-void OverObstacle::tabulate(const method::QuadratureBlock& block, const std::vector<LocalIndex>& positions) {
+void OverObstacle::tabulate(const method::QuadratureBlock& block, const mesh::ConstHostView<const GlobalIndex*>& offset,
+                            const std::vector<LocalIndex>& positions) {
   const auto at_points = [&](const scene::Field& field) {
     const View<double*> values("thixis::bound::obstacle", block.points);
     method::evaluate(field, 0, block, values);
@@ -81,7 +82,7 @@ void OverObstacle::tabulate(const method::QuadratureBlock& block, const std::vec
   };
   const mesh::HostView<double*> value = at_points(*obstacle_), x = at_points(*slope_[0]), y = at_points(*slope_[1]);
   const BlockOnHost points(block);
-  const GlobalIndex first = on_host(quadrature_.offset)(block.first);
+  const GlobalIndex first = offset(block.first);
   for (LocalIndex k = 0; k < block.cells; ++k) {
     const LocalIndex K = points.cell(k), at = block.first + k, layer = in_layer_[K];
     out_.place(K) = at;
@@ -94,8 +95,8 @@ void OverObstacle::tabulate(const method::QuadratureBlock& block, const std::vec
       const GlobalIndex p = first + q;
       if (!jumps_.at(positions[at])) {
         double interpolant[3];
-        functions_.B.gradient(c, lambda, interpolant);
-        out_.at_points(p, 0) = functions_.B.value(c, lambda) - value(q);
+        B_.gradient(c, lambda, interpolant);
+        out_.at_points(p, 0) = B_.value(c, lambda) - value(q);
         out_.at_points(p, 1) = -x(q);
         out_.at_points(p, 2) = -y(q);
         for (int a = 0; a < 3; ++a)
@@ -131,7 +132,7 @@ void OverObstacle::mark(const std::vector<LocalIndex>& positions, const std::vec
         px[q] += lambda[a] * host_.coordinates(host_.cell_vertices(K, a), 0);
         py[q] += lambda[a] * host_.coordinates(host_.cell_vertices(K, a), 1);
       }
-      on_faces[q] = functions_.B.value(c, lambda);
+      on_faces[q] = B_.value(c, lambda);
       if (in_layer_[K] >= 0) on_faces[q] += lift_(0, in_layer_[K], xi(q, 0), xi(q, 1)).value;
     }
     obstacle_->evaluate({px.size(), px.data(), py.data()}, 0, of_psi.data());
@@ -149,7 +150,8 @@ Deviation OverObstacle::operator()(const std::vector<bool>& dirichlet) {
   quadrature_ = subset(space_.quadrature(), positions);
   out_ = DeviationOnHost(mesh_, positions.size(), quadrature_.points());
   comm.together([&] {
-    method::for_each_block(quadrature_, [&](const method::QuadratureBlock& block) { tabulate(block, positions); });
+    const mesh::ConstHostView<const GlobalIndex*> offset = on_host(quadrature_.offset);
+    method::for_each_block(quadrature_, [&](const method::QuadratureBlock& block) { tabulate(block, offset, positions); });
     mark(positions, dirichlet);
   });
   deviation.quadrature = quadrature_;

@@ -29,7 +29,7 @@ class DeviationOnHost {
  public:
   DeviationOnHost() = default;
   DeviationOnHost(const mesh::Mesh& mesh, std::size_t cells, std::size_t points);
-  void commit(Deviation& deviation) const;
+  void commit(Deviation& deviation) const;  ///< deviation <- what was filled in
 
   mesh::HostView<LocalIndex*> place;  ///< as in Deviation
   mesh::HostView<double*> bound;

@@ -1,7 +1,6 @@
 #include "data/on_host.hpp"
 #include "deviation/deviation.hpp"
 #include "deviation/deviation_points.hpp"
-#include "thixis/method/cell_functions.hpp"
 
 namespace thixis::bound {
 
@@ -13,7 +12,6 @@ Excess excess_of_majorant(const method::Space& space, const ContinuousNodes& nod
     if (jumps.at(k)) positions.push_back(k);
   if (positions.empty()) return {};
   const auto of_cells = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), nodes.of_cells);
-  const auto functions = method::cell_functions(space.basis());
   const reference::Modal modal(space.basis().degree());
   const int n = space.basis().size();
   const Excess excess{nowhere(mesh), CellTable("thixis::bound::excess", positions.size(), n)};
@@ -32,11 +30,11 @@ Excess excess_of_majorant(const method::Space& space, const ContinuousNodes& nod
       place(K) = at;
       double local[reference::max_functions], c[reference::max_functions], area = 0;
       for (int l = 0; l < n; ++l) local[l] = majorant[of_cells(K, l)];
-      functions.to_bernstein(local, c);
+      space.basis().to_bernstein(local, c);
       for (int q = offset(k); q < offset(k + 1); ++q) area += weight(q);
       for (int q = offset(k); q < offset(k + 1); ++q) {
         const double lambda[3] = {1 - xi(q, 0) - xi(q, 1), xi(q, 0), xi(q, 1)};
-        const double above = weight(q) / (2 * area) * (functions.B.value(c, lambda) - value(q));
+        const double above = weight(q) / (2 * area) * (space.basis().bernstein().value(c, lambda) - value(q));
         const auto phi = modal.values(1, &xi(q, 0));
         for (int m = 0; m < n; ++m) moments(at, m) += above * phi[m];
       }

@@ -5,7 +5,6 @@
 #include "lift/boundary_lift.hpp"
 #include "thixis/mesh/host.hpp"
 #include "thixis/mesh/to_view.hpp"
-#include "thixis/method/cell_functions.hpp"
 
 namespace thixis::bound {
 
@@ -30,15 +29,17 @@ class OverObstacle {
   /// Bernstein coefficients of psi_I.
   void polynomial(LocalIndex K, double* c) const {
     double local[reference::max_functions];
-    for (int l = 0; l < functions_.size(); ++l) local[l] = psi_[of_cells_(K, l)];
-    functions_.to_bernstein(local, c);
+    for (int l = 0; l < space_.basis().size(); ++l) local[l] = psi_[of_cells_(K, l)];
+    space_.basis().to_bernstein(local, c);
   }
   double known_as(LocalIndex K) const;
   /// |psi - psi_I| at the points of cell k of a block; the largest.
   double most(const BlockOnHost& block, LocalIndex k, const mesh::HostView<double*>& value) const;
   /// Positions of the cells with a deviation; sets `deviates_`.
   std::vector<LocalIndex> find();
-  void tabulate(const method::QuadratureBlock& block, const std::vector<LocalIndex>& positions);
+  /// offset: of the quadrature, on the host.
+  void tabulate(const method::QuadratureBlock& block, const mesh::ConstHostView<const GlobalIndex*>& offset,
+                const std::vector<LocalIndex>& positions);
   void mark(const std::vector<LocalIndex>& positions, const std::vector<bool>& dirichlet) const;
 
   const method::Space& space_;
@@ -49,7 +50,7 @@ class OverObstacle {
   const scene::FieldPtr& obstacle_;
   const std::vector<double>& psi_;
   const method::Jumps& jumps_;
-  method::CellFunctions functions_;
+  const reference::Bernstein& B_;
   std::vector<LocalIndex> in_layer_;
   double size_;  ///< of psi on all ranks
   method::Gradient slope_;

@@ -55,6 +55,8 @@ struct FeasibleParts {
   /// pointwise move takes away.
   KOKKOS_FUNCTION bool moves(int K, const double* gap) const;
 
+  KOKKOS_FUNCTION double stiffness(int K) const { return move_tension.extent(0) > 0 ? move_tension(K) : constant_move_tension; }
+
  private:
   static constexpr int most = reference::max_functions;
 
@@ -80,7 +82,6 @@ struct FeasibleParts {
       if (lambda(K, k) != 0) return true;
     return false;
   }
-  KOKKOS_FUNCTION double stiffness(int K) const { return move_tension.extent(0) > 0 ? move_tension(K) : constant_move_tension; }
   KOKKOS_FUNCTION Move move_polynomial(int K, const mesh::CellGeometry& geometry, const double* gap, bool counts) const;
   KOKKOS_FUNCTION Move move_pointwise(int K, LocalIndex place, const mesh::CellGeometry& geometry, const double* gap, bool counts) const;
   /// What is taken of a gap: all of it up to `most`, less and less up to twice

@@ -61,7 +61,7 @@ Pressing::Pressing(const method::Space& space, const FeasibleParts& kernel, cons
   for (LocalIndex v = 0; v < mesh_.vertices; ++v)
     if (mesh_.vertex_owner[v] == mesh_.comm.rank()) own_ids.push_back(mesh_.vertex_id[v]);
   import_ = Teuchos::rcp(new algebra::Import(algebra::map_of(own_ids, mesh_.comm), algebra::map_of(mesh_.vertex_id, mesh_.comm)));
-  if (functions) integrate_functions(kernel, dirichlet);
+  if (functions) integrate_functions(basis, kernel, dirichlet);
   if (deviates) integrate_deviation(kernel, keeps);
 }
 
@@ -73,12 +73,12 @@ void Pressing::add_up(MultiVector& columns) const {
   columns.doImport(own, *import_, Tpetra::INSERT);
 }
 
-void Pressing::integrate_functions(const FeasibleParts& kernel, const std::vector<bool>& dirichlet) {
+void Pressing::integrate_functions(const reference::CellBasis& basis, const FeasibleParts& kernel, const std::vector<bool>& dirichlet) {
   double hat[3][reference::max_functions];
   for (int i = 0; i < 3; ++i) {
     double unit[reference::max_functions] = {};
     unit[kernel.first_vertex + i] = 1;
-    kernel.functions.to_bernstein(unit, hat[i]);
+    basis.to_bernstein(unit, hat[i]);
     positive_[i] = 2 * positive_part(kernel.functions.B, hat[i]);
   }
   MultiVector columns(import_->getTargetMap(), 1);

@@ -29,7 +29,7 @@ class Pressing {
   std::size_t bytes() const;
 
  private:
-  void integrate_functions(const FeasibleParts& kernel, const std::vector<bool>& dirichlet);
+  void integrate_functions(const reference::CellBasis& basis, const FeasibleParts& kernel, const std::vector<bool>& dirichlet);
   void integrate_deviation(const FeasibleParts& kernel, const std::vector<bool>& keeps);
   /// The sums over all ranks of what cells have added at their local vertices.
   void add_up(algebra::MultiVector& columns) const;

@@ -6,14 +6,11 @@
 /// Kernels of Pressing: what cells add to sums at their vertices, (vertex, column).
 namespace thixis::bound {
 
+/// Cells share vertices: threads add up in any order.
 template <class Sums>
 KOKKOS_INLINE_FUNCTION void add_at(const Sums& sums, LocalIndex vertex, int column, double value) {
   if constexpr (std::is_same_v<typename Sums::execution_space, Kokkos::Serial>) sums(vertex, column) += value;
   else Kokkos::atomic_add(&sums(vertex, column), value);
-}
-
-KOKKOS_INLINE_FUNCTION double stiffness(const FeasibleParts& parts, LocalIndex K) {
-  return parts.move_tension.extent(0) > 0 ? parts.move_tension(K) : parts.constant_move_tension;
 }
 
 /// Column 0: |||psi_a|||².
@@ -27,7 +24,7 @@ struct SumStiffness {
     const mesh::CellGeometry geometry = mesh::cell_geometry(parts.x, parts.vertices, K);
     for (int i = 0; i < 3; ++i)
       add_at(sums, parts.vertices(K, i), 0,
-             stiffness(parts, K) * gradient_square(parts.energy.products, geometry, parts.functions.size(), hat[i]));
+             parts.stiffness(K) * gradient_square(parts.energy.products, geometry, parts.functions.size(), hat[i]));
   }
 };
 
@@ -53,15 +50,15 @@ struct SumDeviation {
     }
     mean_of_positive(place) = mean;
     for (int i = 0; i < 3; ++i) {
-      add_at(sums, parts.vertices(K, i), 0, stiffness(parts, K) * square);
+      add_at(sums, parts.vertices(K, i), 0, parts.stiffness(K) * square);
       if (!D.on_held(place, i)) continue;
       for (int end = 1; end < 3; ++end) add_at(sums, parts.vertices(K, (i + end) % 3), 1, 1);
     }
   }
 };
 
-/// Columns 0, 1: (lambda^, max(psi_a, 0)) and (lambda^, max(D, 0)); 2, 3: how many cells have a gap at functions with a mean, and one above
-/// |D| everywhere.
+/// Columns 0, 1: (lambda^, max(psi_a, 0)) and (lambda^, max(D, 0)); 2: how many cells have a gap at functions with a mean; 3: how many have
+/// a gap that is nowhere below |D|.
 template <class Sums>
 struct SumForces {
   FeasibleParts parts;
@@ -101,10 +98,10 @@ struct SumForces {
   KOKKOS_FUNCTION bool is_open(int K, LocalIndex at) const {
     double open[reference::max_functions] = {}, c[reference::max_functions] = {};
     const int n = parts.functions.size();
-    for (int l = 0; l < n; ++l) open[l] = gap(K, l) > 0 ? gap(K, l) : 0;
+    for (int l = 0; l < n; ++l) open[l] = gap(K, l) < 0 ? 0 : gap(K, l);
     parts.functions.to_bernstein(open, c);
     for (int k = 0; k < n; ++k)
-      if (c[k] < parts.deviation.bound(at)) return false;
+      if (!(c[k] >= parts.deviation.bound(at))) return false;
     return true;
   }
 

@@ -21,7 +21,7 @@ Vector at_unknowns(const method::Space& space, const Vector& at_points) {
   return all;
 }
 
-void split(const method::Space& space, const Vector& X3, Vector& above, Vector& below) {
+void split_multiplier(const method::Space& space, const Vector& X3, Vector& above, Vector& below) {
   const auto lambda = read(X3), D = read(space.pairing());
   const auto plus = above.getLocalViewDevice(Tpetra::Access::OverwriteAll);
   const auto minus = below.getLocalViewDevice(Tpetra::Access::ReadWrite);

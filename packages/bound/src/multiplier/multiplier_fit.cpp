@@ -46,7 +46,7 @@ MultiplierFit::MultiplierFit(const method::Space& space, int q, const View<const
   }
 }
 
-void MultiplierFit::split(const Vector& X3, Vector& above, Vector& below) const { bound::split(space_, X3, above, below); }
+void MultiplierFit::split(const Vector& X3, Vector& above, Vector& below) const { split_multiplier(space_, X3, above, below); }
 
 void MultiplierFit::operator()(const Vector& X3, Vector& above, Vector& cut_off) {
   split(X3, above, cut_off);

@@ -67,6 +67,17 @@ struct IntegralTerms {
   }
 };
 
+/// The first of the cells that have an entry, for each of them.
+View<const LocalIndex*> first_cells(const Kokkos::View<const LocalIndex**, Kokkos::LayoutRight>& entries, std::size_t count) {
+  const View<LocalIndex*> first("thixis::bound::first_cells", count);
+  Kokkos::deep_copy(first, entries.extent_int(0));
+  Kokkos::parallel_for(
+      "thixis::bound::first_cells", Kokkos::RangePolicy<>(0, entries.extent_int(0)), KOKKOS_LAMBDA(int k) {
+        for (int l = 0; l < entries.extent_int(1); ++l) Kokkos::atomic_fetch_min(&first(entries(k, l)), k);
+      });
+  return first;
+}
+
 std::vector<double> identity(int n) {
   std::vector<double> I(n * n, 0.0);
   for (int i = 0; i < n; ++i) I[i * n + i] = 1;
@@ -98,17 +109,19 @@ Coefficients closing(const method::Space& space, const Coefficients& gap, const 
              back = matrix_view("thixis::bound::from_compared", n, n, reference::inverse(n, to));
   const Kokkos::View<const LocalIndex**, Kokkos::LayoutRight> entries = space.coefficients().element_entries;
   const Coefficients closed("thixis::bound::closing", gap.extent(0));
+  const View<const LocalIndex*> writer = first_cells(entries, gap.extent(0));
   Kokkos::parallel_for(
       "thixis::bound::closing", Kokkos::RangePolicy<>(0, entries.extent_int(0)), KOKKOS_LAMBDA(int k) {
         double c[reference::max_functions] = {};
         for (int b = 0; b < n; ++b) {
           for (int l = 0; l < n; ++l) c[b] += there(b, l) * gap(entries(k, l));
-          c[b] = c[b] < 0 ? -c[b] : 0;
+          c[b] = c[b] > 0 ? 0 : -c[b];
         }
         for (int l = 0; l < n; ++l) {
+          if (writer(entries(k, l)) != k) continue;  // cells that share an entry agree on it, up to rounding
           double value = 0;
           for (int b = 0; b < n; ++b) value += back(l, b) * c[b];
-          Kokkos::atomic_exchange(&closed(entries(k, l)), value);  // cells that share an entry agree on it
+          closed(entries(k, l)) = value;
         }
       });
   return closed;
