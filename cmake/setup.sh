@@ -82,19 +82,34 @@ build() {
   }
 }
 
-# tidy PRESET [N]: clang-tidy on all sources, or on those that the last N commits touched and that are still there. Its warnings are errors.
-tidy() {
-  local folder=build/$1 commits=${2:-} files
-  if [ -n "$commits" ]; then
-    files=$(git log "-$commits" --no-merges --name-only --format= --diff-filter=d -- 'packages/*.cpp' 'apps/*.cpp' | sort -u |
-      while read -r file; do [ ! -f "$file" ] || echo "$PWD/$file"; done)
-  else
-    files=$(find "$PWD/packages" "$PWD/apps" -name '*.cpp')
+# sources [N]: all of them, or those that the last N commits touched and that are still there.
+sources() {
+  if [ -z "${1:-}" ]; then
+    find "$PWD/packages" "$PWD/apps" -name '*.cpp'
+    return
   fi
+  git log "-$1" --no-merges --name-only --format= --diff-filter=d -- 'packages/*.cpp' 'apps/*.cpp' | sort -u |
+    while read -r file; do [ ! -f "$file" ] || echo "$PWD/$file"; done
+}
+
+# tidy PRESET [N]: clang-tidy on these sources. Its warnings are errors.
+tidy() {
+  local folder=build/$1 files
+  files=$(sources "${2:-}")
   [ -n "$files" ] || return 0
   echo "thixis: clang-tidy on $(wc -w <<<"$files") files" >&2
   xargs -n 1 -P "$(nproc)" clang-tidy-14 -quiet -warnings-as-errors='*' -p "$folder" <<<"$files" 2>"$folder/tidy.log" ||
     fail "clang-tidy found mistakes; $folder/tidy.log has what else it said."
+}
+
+# views PRESET [N]: who touches elements of Kokkos Views, in these sources of the packages in tests/hygiene/views/packages.
+views() {
+  local folder=build/$1 packages files
+  packages=$(sed 's/#.*//' tests/hygiene/views/packages | xargs | tr ' ' '|')
+  files=$(sources "${2:-}" | grep -E "/packages/($packages)/" || true)
+  [ -n "$files" ] || return 0
+  echo "thixis: clang-query on $(wc -w <<<"$files") files" >&2
+  tests/hygiene/views/check "$folder" $files || fail "the host must not touch elements of Views but through a mirror (CONTRIBUTING.md)."
 }
 
 # As root, on more ranks than cores, inside containers: all this is allowed.

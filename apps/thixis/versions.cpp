@@ -1,10 +1,11 @@
 #include "versions.hpp"
 
-#include <Trilinos_version.h>
 #include <hdf5.h>
 #include <mpi.h>
 
 #include <Kokkos_Core.hpp>
+
+#include "thixis/algebra/compat.hpp"
 
 namespace thixis {
 namespace {
@@ -24,10 +25,11 @@ std::string mpi_library() {
 std::vector<std::pair<std::string, std::string>> versions() {
   unsigned major = 0, minor = 0, release = 0;
   H5get_libversion(&major, &minor, &release);
+  constexpr int kokkos = algebra::compat::kokkos_version;
   return {{"thixis", version_number},
           {"git", version_git},
-          {"trilinos", TRILINOS_VERSION_STRING},
-          {"kokkos", dotted(KOKKOS_VERSION / 10000, KOKKOS_VERSION / 100 % 100, KOKKOS_VERSION % 100)},
+          {"trilinos", algebra::compat::trilinos_version},
+          {"kokkos", dotted(kokkos / 10000, kokkos / 100 % 100, kokkos % 100)},
           {"kokkos backend", Kokkos::DefaultExecutionSpace::name()},
           {"mpi", mpi_library()},
           {"hdf5", dotted(major, minor, release)},

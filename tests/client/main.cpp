@@ -6,11 +6,12 @@
 #include "thixis/core/deck.hpp"
 #include "thixis/core/error.hpp"
 #include "thixis/drive/stationary.hpp"
-#include "thixis/fem/lagrange_space.hpp"
+#include "thixis/fem/entry.hpp"
+#include "thixis/membranes/family.hpp"
+#include "thixis/membranes/membranes.hpp"
 #include "thixis/mesh/build.hpp"
 #include "thixis/mesh/mesh.hpp"
-#include "thixis/models/membranes.hpp"
-#include "thixis/scene/membranes.hpp"
+#include "thixis/models/catalogue.hpp"
 
 namespace {
 
@@ -32,10 +33,11 @@ constexpr const char* text = R"(
 bool solve() {
   namespace drive = thixis::drive;
   const auto deck = thixis::core::Deck::from_text(text, "client");
-  const auto params = deck.parse(drive::RunParams::schema());
+  const thixis::models::Catalogue catalogue({thixis::fem::entry()}, {thixis::membranes::family()});
+  const auto params = deck.parse(catalogue.schema());
   auto hierarchy = thixis::mesh::build(params.mesh, thixis::core::Comm(), deck.folder());
-  const auto model = thixis::models::membranes(thixis::scene::membrane_scene(params.scene), thixis::fem::make_lagrange_space, params.method,
-                                               params.linear, {});
+  const auto model =
+      thixis::membranes::membranes(thixis::membranes::membrane_scene(params.scene), thixis::fem::entry(), params.method, params.linear, {});
   const drive::Outcome outcome = drive::solve_stationary(*model, hierarchy, params, {});
 
   const auto kkt = thixis::complementarity::verify(outcome.discretization->kkt_data(*outcome.X));

@@ -5,10 +5,12 @@ usage: run_wrong_deck.py ENTRY expected.txt PROGRAM SCRATCH_FOLDER [LAUNCHER ...
 An entry of the list:
 
     name: arguments of the program
+      needs METHOD ...              in a program without these methods the entry counts as not built (exit code 77)
       exit CODE                     2: command line or deck, 5: input or output
       found by check | run          whether `thixis check` finds it too (the default), or only a run, once there is a mesh
       says SENTENCE                 a line of the text; all `says` lines together are the whole text on standard error
 """
+import os
 import pathlib
 import shlex
 import shutil
@@ -33,6 +35,8 @@ def entry_of(name, path):
         key, _, text = line.strip().partition(" ")
         if key == "says":
             entry["says"].append(text)
+        elif key == "needs":
+            entry["needs"] = text.split()
         elif key == "exit":
             entry["exit"] = int(text)
         elif key == "found":
@@ -47,6 +51,11 @@ def entry_of(name, path):
 def main(name, list_file, program, scratch, *launcher):
     list_file = pathlib.Path(list_file)
     entry = entry_of(name, list_file)
+    built = os.environ.get("THIXIS_METHODS")
+    missing = [method for method in entry.get("needs", []) if built is not None and method not in built.split(",")]
+    if missing:
+        print("not built:", ", ".join(missing))
+        sys.exit(77)
     scratch = pathlib.Path(scratch)
     shutil.rmtree(scratch, ignore_errors=True)
     wanted = "\n".join(entry["says"]) + "\n"

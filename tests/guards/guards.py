@@ -19,6 +19,7 @@ DECKS = Path(__file__).resolve().parent.parent
 GOOD, TIME = DECKS / "decks/good.xml", DECKS / "restart/parabolic.xml"
 scenario, program, launcher = sys.argv[1], sys.argv[2], sys.argv[4:]
 scratch = Path.cwd() / scenario
+METHODS = os.environ.get("THIXIS_METHODS", "fem,dg,hho,fv").split(",")  # those that the program has
 PATIENCE = 60  # seconds: nothing here takes so long
 
 
@@ -111,7 +112,7 @@ def sizes():
     """What is too large for the machine, or never ends, does not begin."""
     one = with_settings(scene__model="obstacle", scene__case="torsion")
     for settings in (with_settings(mesh__refinements=16, method__degree=4), with_settings(mesh__refinements=20),
-                     with_settings(mesh__generator="disk", mesh__rings=1000, mesh__refinements=15, method__name="hho")):
+                     with_settings(mesh__generator="disk", mesh__rings=1000, mesh__refinements=15, method__name="hho" if "hho" in METHODS else "fem")):
         for ranks in (1, 2):
             printed = thixis("run", GOOD, *one, *settings, ranks=ranks, expect=2)
             assert re.search(r"mesh/refinements: the run needs [0-9.e+]+ GB of memory or more.*, and there are [0-9.e+]+ GB; take fewer cells",
@@ -191,17 +192,18 @@ def tensions():
     deck = DECKS / "guards/tensions.xml"
     for mu in ("exp(-60*x)", "exp(-100*x)", "1+1e8*exp(-2000*(x-0.4)^2)"):
         for method, degrees in (("fem", (1, 2, 4)), ("hho", (1, 3)), ("dg", (1, 3))):
-            for degree in degrees:
+            for degree in degrees if method in METHODS else ():
                 thixis("run", deck, "--output", "out", *with_settings(scene__data__mu1=mu, method__name=method, method__degree=degree),
                        expect=(0, 2, 3))
-    for ranks in (1, 2):
+    for ranks in (1, 2) if "dg" in METHODS else ():
         thixis("run", deck, "--output", "out", *with_settings(method__name="dg"), ranks=ranks, expect=2,
-               says="method/penalty: 10 is too small for the tension mu1, which varies by orders of magnitude inside a cell")
+               says="method/penalty: it is too small for the tension mu1, which varies by orders of magnitude inside a cell")
+    for ranks in (1, 2) if "hho" in METHODS else ():
         thixis("run", deck, "--output", "out", *with_settings(method__name="hho", method__degree=2, scene__data__mu1="exp(-100*x)",
                                                               scene__data__f1="-1e-300"),
                ranks=ranks, expect=2, says="a tension that varies by too many orders of magnitude inside a cell")
-    thixis("run", deck, "--output", "out", *with_settings(method__name="dg", method__penalty=1000), expect=(0, 3))
-    thixis("run", deck, "--output", "out", *with_settings(method__name="dg", method__variant="nipg"), expect=(0, 3))
+    for settings in ({"method__penalty": 1000}, {"method__variant": "nipg"}) if "dg" in METHODS else ():
+        thixis("run", deck, "--output", "out", *with_settings(method__name="dg", **settings), expect=(0, 3))
 
 
 def tilts():

@@ -9,10 +9,8 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "registry.hpp"
 #include "thixis/algebra/tpetra.hpp"
-#include "thixis/dg/space.hpp"
-#include "thixis/fem/lagrange_space.hpp"
-#include "thixis/hho/space.hpp"
 #include "thixis/mesh/build.hpp"
 #include "thixis/mesh/mesh.hpp"
 #include "thixis/method/gradient_form.hpp"
@@ -63,7 +61,7 @@ double arithmetic() {
 
 struct Subject {
   std::string name;
-  method::SpaceFactory factory;
+  method::Method method;
   method::MethodParams params;
 };
 
@@ -72,12 +70,11 @@ std::vector<Subject> subjects() {
   for (int p = 1; p <= 4; ++p) {
     method::MethodParams params;
     params.degree = p;
-    params.name = method::MethodName::fem;
-    all.push_back({fmt::format("fem P{}", p), fem::make_lagrange_space, params});
-    params.name = method::MethodName::dg;
-    all.push_back({fmt::format("sipg P{}", p), dg::make_space, params});
-    params.name = method::MethodName::hho;
-    all.push_back({fmt::format("hho P{}", p), hho::make_space, params});
+    for (const method::Method& known : catalogue().methods()) {
+      if (!known.make_space) continue;
+      params.name = known.name;
+      all.push_back({fmt::format("{} P{}", known.name, p), known, params});
+    }
   }
   return all;
 }
@@ -88,13 +85,15 @@ void measure(const Subject& subject, const mesh::Mesh& mesh, double bytes_per_se
   const auto tension = scene::constant(1);
   const auto force = scene::formula([](double x, double y) { return x * y; });
   std::unique_ptr<method::Space> V;
-  const double setup = seconds([&] { V = subject.factory(mesh, {std::vector<bool>(mesh.tags.size(), true), nullptr, subject.params}); });
+  const double setup = seconds([&] {
+    V = subject.method.make_space(mesh, {std::vector<bool>(mesh.tags.size(), true), nullptr, subject.params});
+  });
   algebra::MatrixPtr S;
-  const double matrix = seconds([&] { S = V->stiffness(*tension); });
+  const double matrix = seconds([&] { S = method::assemble(*subject.method.diffusion(*V, tension)); });
   algebra::Vector F(V->map());
-  const double load = seconds([&] { V->load(*tension, *force, boundary, 0, F); });
+  const double load = seconds([&] { method::load(*subject.method.diffusion(*V, tension), *force, boundary, 0, F); });
 
-  const auto form = V->cell_form(*tension);
+  const auto form = subject.method.diffusion(*V, tension)->cells();
   const int n = V->elements().extent_int(1);
   const LocalIndex cells = V->elements().extent_int(0), most = method::cells_per_block(n);
   const method::LocalMatrices A("local", most, n, n);
@@ -108,8 +107,8 @@ void measure(const Subject& subject, const mesh::Mesh& mesh, double bytes_per_se
   // what must be computed: five operations per entry of a local matrix for three reference matrices (hho: twice that), one to add it; on
   // each of 1.5 faces per cell, at p+1 points, 2(p+1) functions with a trace against 4n and 2(p+1) others, and 4n² to add
   const int p = subject.params.degree;
-  double per_cell = n * n * (subject.params.name == method::MethodName::hho ? 12.0 : 6.0);
-  if (subject.params.name == method::MethodName::dg) per_cell += 1.5 * ((p + 1) * 2 * (p + 1) * (8.0 * n + 6 * (p + 1)) + 4.0 * n * n);
+  double per_cell = n * n * (subject.params.name == "hho" ? 12.0 : 6.0);
+  if (subject.params.name == "dg") per_cell += 1.5 * ((p + 1) * 2 * (p + 1) * (8.0 * n + 6 * (p + 1)) + 4.0 * n * n);
   const double flops = cells * per_cell;
   const double bound = std::max(bytes / bytes_per_second, flops / flops_per_second);
   fmt::print("{:8} {:4} {:10} {:10.2e} {:10.2e} {:10.2e} {:10.2e} {:8} {:8.1f}\n", subject.name, n, S->getGlobalNumEntries(), cells / setup,

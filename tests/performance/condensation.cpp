@@ -21,8 +21,9 @@ struct Way {
 };
 
 void measure(const Way& way, int degree, int level) {
+  if (!is_built("hho")) return fmt::print("{:34} is not built\n", "hho");
   auto params = catalogued("smooth contact", level);
-  params.method = by(method::MethodName::hho, degree);
+  params.method = by("hho", degree);
   params.method.condensation = way.condensed;
   params.linear.form = way.form;
   params.linear.solver = way.solver;

@@ -13,7 +13,7 @@
 
 #include "problems.hpp"
 #include "thixis/core/timer.hpp"
-#include "thixis/models/membranes.hpp"
+#include "thixis/membranes/membranes.hpp"
 
 namespace thixis::verification {
 namespace {
@@ -22,7 +22,7 @@ using algebra::Vector;
 constexpr int restart = 50;
 
 std::unique_ptr<models::StationaryModel> model(const drive::RunParams& params, const algebra::LinearParams& linear) {
-  return models::membranes(scene::membrane_scene(params.scene), factory(params.method.name), params.method, linear, {});
+  return membranes::membranes(membranes::membrane_scene(params.scene), method_of(params.method.name), params.method, linear, {});
 }
 
 /// Sets up the system of the first Newton step at X; its residual goes to R. Seconds.
@@ -54,7 +54,7 @@ double seconds(int runs, F f) {
 
 void measure(const std::string& name, int degree, int level) {
   auto params = catalogued(name, level);
-  params.method = by(method::MethodName::fem, degree);
+  params.method = by("fem", degree);
   params.mesh.cells_per_side = 5;
   auto hierarchy = mesh::build(params.mesh, core::Comm(), INPUTS);
   const auto coarse_model = model(params, params.linear);

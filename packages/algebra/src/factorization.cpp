@@ -29,9 +29,10 @@ std::vector<GlobalIndex> ids_of(const Map& map) {
 /// The largest entry of each column, 1 for an empty one.
 std::vector<double> column_scales(const Matrix& A) {
   std::vector<double> scale(local_columns(A), 0.);
-  const auto local = A.getLocalMatrixHost();
-  for (std::size_t k = 0; k < local.nnz(); ++k)
-    scale[local.graph.entries(k)] = std::max(scale[local.graph.entries(k)], std::abs(local.values(k)));
+  const auto local = A.getLocalMatrixDevice();
+  const auto column = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), local.graph.entries);
+  const auto value = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), local.values);
+  for (std::size_t k = 0; k < value.extent(0); ++k) scale[column(k)] = std::max(scale[column(k)], std::abs(value(k)));
   for (double& s : scale)
     if (s == 0) s = 1;
   return scale;

@@ -2,11 +2,11 @@
 
 #include <cmath>
 
-#include "cg.hpp"
 #include "direct.hpp"
-#include "gmres.hpp"
 #include "ilu.hpp"
-#include "multigrid.hpp"
+#include "krylov/cg.hpp"
+#include "krylov/gmres.hpp"
+#include "multigrid/multigrid.hpp"
 #include "thixis/algebra/tpetra.hpp"
 #include "thixis/core/assert.hpp"
 #include "thixis/core/error.hpp"

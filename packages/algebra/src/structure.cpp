@@ -4,6 +4,7 @@
 namespace thixis::algebra {
 
 MapPtr interlaced(const MapPtr& map, int fields) {
+  if (fields == 1) return map;
   const LocalIndex count = local_size(*map);
   if (map->isContiguous())
     return Teuchos::rcp(
@@ -12,13 +13,6 @@ MapPtr interlaced(const MapPtr& map, int fields) {
   for (LocalIndex l = 0; l < count; ++l)
     for (int f = 0; f < fields; ++f) ids[fields * l + f] = fields * map->getGlobalElement(l) + f;
   return Teuchos::rcp(new Map(fields * map->getGlobalNumElements(), ids(), map->getIndexBase(), map->getComm()));
-}
-
-MapPtr interlaced(const MapPtr& map, int fields, LocalIndex complete) {
-  std::vector<GlobalIndex> ids;
-  for (LocalIndex l = 0; l < local_size(*map); ++l)
-    for (int f = 0; f < (l < complete ? fields : fields - 1); ++f) ids.push_back(fields * map->getGlobalElement(l) + f);
-  return map_of(ids, comm_of(*map));
 }
 
 GraphPtr make_graph(const MapPtr& rows, const MapPtr& columns, const Graph::local_graph_device_type::row_map_type::non_const_type& row_map,

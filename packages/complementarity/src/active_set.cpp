@@ -30,13 +30,40 @@ struct Classify {
   }
 };
 
+/// size = max_l s_l |G_l|
+struct LargestMultiplier {
+  Read G, s;
+  KOKKOS_FUNCTION void operator()(int l, double& size) const {
+    const double y = std::abs(s(l) * G(l));
+    if (size < y) size = y;
+  }
+};
+
 /// splitmix64: a bijection of 64-bit words without visible structure
-std::uint64_t hash(std::uint64_t x) {
+KOKKOS_INLINE_FUNCTION std::uint64_t hash(std::uint64_t x) {
   x += 0x9e3779b97f4a7c15ULL;
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
   x = (x ^ (x >> 27)) * 0x94d049bb133111ebULL;
   return x ^ (x >> 31);
 }
+
+/// Contact points, and the sums over them of the two halves of their hashes: no sum of 64-bit words overflows below 2^31 points.
+struct Fingerprint {
+  FlagsOut flags;
+  algebra::Map::local_map_type ids;
+  KOKKOS_FUNCTION void operator()(int l, long long& count, long long& low, long long& high) const {
+    if (!flags(l)) return;
+    const std::uint64_t h = hash(static_cast<std::uint64_t>(ids.getGlobalElement(l)));
+    count += 1;
+    low += static_cast<long long>(h & 0xffffffffULL);
+    high += static_cast<long long>(h >> 32);
+  }
+};
+
+struct Differences {
+  Flags now, before;
+  KOKKOS_FUNCTION void operator()(int l, long long& count) const { count += now(l) != before(l); }
+};
 
 }  // namespace
 
@@ -48,24 +75,36 @@ double largest_argument(const algebra::Vector& K, const algebra::Vector& G, cons
   return comm_of(*K.getMap()).max(largest);
 }
 
-ActiveSet::ActiveSet(const algebra::Vector& K, const algebra::Vector& G, const algebra::Vector& s, Ties ties, double tie)
-    : flags_(K.getLocalLength()), map_(K.getMap()) {
-  const core::Comm comm = comm_of(*map_);
-  const int points = static_cast<int>(flags_.size());
-  Kokkos::parallel_for("thixis::complementarity::active set", Kokkos::RangePolicy<Execution>(0, points),
-                       Classify{read(K), read(G), read(s), tie, ties == Ties::contact, FlagsOut(flags_.data(), flags_.size())});
-  Execution().fence();
+double largest_multiplier(const algebra::Vector& G, const algebra::Vector& s) {
+  double largest = 0;
+  Kokkos::parallel_reduce("thixis::complementarity::largest multiplier",
+                          Kokkos::RangePolicy<Execution>(0, static_cast<int>(G.getLocalLength())), LargestMultiplier{read(G), read(s)},
+                          Kokkos::Max<double>(largest));
+  return comm_of(*G.getMap()).max(largest);
+}
 
-  // The two halves of the hashes are summed apart: no sum of 64-bit words overflows below 2^31 points.
-  std::vector<long long> sums(3, 0);
-  for (int l = 0; l < points; ++l) {
-    if (!flags_[l]) continue;
-    const std::uint64_t h = hash(static_cast<std::uint64_t>(map_->getGlobalElement(l)));
-    sums[0] += 1;
-    sums[1] += static_cast<long long>(h & 0xffffffffULL);
-    sums[2] += static_cast<long long>(h >> 32);
-  }
-  comm.sum(sums);
+ActiveSet::ActiveSet(const algebra::Vector& K, const algebra::Vector& G, const algebra::Vector& s, Ties ties, double tie) {
+  set(K, G, s, ties, tie);
+}
+
+void ActiveSet::set(const algebra::Vector& K, const algebra::Vector& G, const algebra::Vector& s, Ties ties, double tie) {
+  map_ = K.getMap();
+  flags_.resize(K.getLocalLength());
+  const FlagsOut flags(flags_.data(), flags_.size());
+  const Kokkos::RangePolicy<Execution> points(0, static_cast<int>(flags_.size()));
+  Classify classify;
+  classify.K = read(K);
+  classify.G = read(G);
+  classify.s = read(s);
+  classify.tie = tie;
+  classify.tie_contact = ties == Ties::contact;
+  classify.flags = flags;
+  Kokkos::parallel_for("thixis::complementarity::active set", points, classify);
+  std::vector<long long> sums(3);
+  Kokkos::parallel_reduce("thixis::complementarity::fingerprint", points, Fingerprint{flags, map_->getLocalMap()}, sums[0], sums[1],
+                          sums[2]);
+  Execution().fence();
+  comm_of(*map_).sum(sums);
   count_ = sums[0];
   fingerprint_ = static_cast<std::uint64_t>(sums[1]) + (static_cast<std::uint64_t>(sums[2]) << 32);
 }
@@ -74,7 +113,8 @@ long long ActiveSet::changed(const ActiveSet& before) const {
   if (map_.is_null()) return before.count_;
   if (before.map_.is_null()) return count_;
   long long differences = 0;
-  for (std::size_t l = 0; l < flags_.size(); ++l) differences += flags_[l] != before.flags_[l];
+  Kokkos::parallel_reduce("thixis::complementarity::changed", Kokkos::RangePolicy<Execution>(0, static_cast<int>(flags_.size())),
+                          Differences{Flags(flags_.data(), flags_.size()), Flags(before.flags_.data(), before.flags_.size())}, differences);
   return comm_of(*map_).sum(differences);
 }
 

@@ -32,7 +32,7 @@ void NoxGroup::computeX(const NOX::Abstract::Group& group, const NOX::Abstract::
 }
 
 NOX::Abstract::Group::ReturnType NoxGroup::computeF() {
-  if (!is_F_) state_ = system_.residual(X_.values(), R_.values());
+  if (!is_F_) system_.residual(X_.values(), R_.values(), state_);
   is_F_ = true;
   return Ok;
 }

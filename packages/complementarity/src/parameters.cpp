@@ -2,17 +2,6 @@
 
 namespace thixis::complementarity {
 
-const core::Schema<InitialParams>& InitialParams::schema() {
-  static const auto s = core::Schema<InitialParams>("initial",
-                                                    "Functions that a cold start begins with; what is not given is zero inside, or the "
-                                                    "height closest to zero at which the membranes are held.")
-                            .parameter("u", &InitialParams::u, "Start of the membrane of the obstacle problem.")
-                            .parameter("u1", &InitialParams::u1, "Start of the upper membrane.")
-                            .parameter("u2", &InitialParams::u2, "Start of the lower membrane.")
-                            .parameter("lambda", &InitialParams::lambda, "Start of the multiplier.");
-  return s;
-}
-
 const core::Schema<NewtonParams>& NewtonParams::schema() {
   static const auto s =
       core::Schema<NewtonParams>("newton", "How the nonlinear system is solved.")
@@ -22,7 +11,6 @@ const core::Schema<NewtonParams>& NewtonParams::schema() {
                      "Newton steps after which the run ends without convergence; 0 solves nothing and only counts unknowns.")
           .choice("start", &NewtonParams::start, {{"cold", Start::cold}, {"nested", Start::nested}},
                   "Begin with the functions of 'initial', or with the solution on the next coarser mesh.")
-          .block("initial", &NewtonParams::initial, InitialParams::schema())
           .choice("globalization", &NewtonParams::globalization,
                   {{"none", Globalization::none}, {"line search", Globalization::line_search}, {"hybrid", Globalization::hybrid}},
                   "Full steps with a damped fallback at a cycle; damped steps from the start; full steps with the fallback also at growing "
@@ -30,9 +18,8 @@ const core::Schema<NewtonParams>& NewtonParams::schema() {
           .choice("ties", &NewtonParams::ties, {{"contact", Ties::contact}, {"free", Ties::free}},
                   "What becomes of points where gap and scaled multiplier are equal.")
           .parameter("tie tolerance", &NewtonParams::tie_tolerance, core::between(0, 1e-3),
-                     "Gap and scaled multiplier count as equal up to this part of the way of the membranes, or of the largest scaled "
-                     "multiplier: where "
-                     "a basis function has no mean, both vanish up to round-off.")
+                     "Gap and scaled multiplier count as equal up to this part of the largest way of what may touch, or of the largest "
+                     "scaled multiplier: where a basis function has no mean, both vanish up to round-off.")
           .choice("scaling", &NewtonParams::scaling, {{"none", Scaling::none}, {"physical", Scaling::physical}},
                   "Compare the gap with the multiplier itself, or with the multiplier scaled to a length.")
           .parameter("sweeps", &NewtonParams::sweeps, core::between(0, 10000),

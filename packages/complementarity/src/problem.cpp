@@ -11,5 +11,7 @@ double Problem::gap_size(const algebra::Vector&, const algebra::Vector& K, const
 double Problem::rhs_norm(const algebra::Vector&, const algebra::Vector&) const { return reference_norm(); }
 
 void Problem::relax(algebra::Vector&, int) const {}
+void Problem::look_at(const algebra::Vector&, const algebra::Vector&) const {}
+void Problem::look_away() const {}
 
 }  // namespace thixis::complementarity

@@ -44,11 +44,10 @@ double System::norm(const algebra::Vector& R) {
   return weighted_->norm2();
 }
 
-State System::residual(const algebra::Vector& X, algebra::Vector& R) {
-  State state;
+void System::residual(const algebra::Vector& X, algebra::Vector& R, State& state) {
   problem_.arguments(X, K_, G_);
   const double tie = newton_.tie_tolerance > 0 ? newton_.tie_tolerance * problem_.gap_size(X, K_, G_, s_) : 0.0;
-  state.active = ActiveSet(K_, G_, s_, newton_.ties, tie);
+  state.active.set(K_, G_, s_, newton_.ties, tie);
   evaluate(function_, K_, G_, s_, state.active, C_);
   R.putScalar(0);
   problem_.insert(C_, R);
@@ -59,7 +58,6 @@ State System::residual(const algebra::Vector& X, algebra::Vector& R) {
   state.residual = std::hypot(state.equations, state.complementarity);
   state.round_off = problem_.noise(X);
   if (!(reference_ > 0)) reference_ = state.residual;
-  return state;
 }
 
 void System::linearize(const algebra::Vector& X, const ActiveSet& active) {
@@ -82,29 +80,55 @@ double System::linear_tolerance(double rhs, const State& state) const {
 constexpr double impatience = 3;
 constexpr int most_waiting = 3;
 
-bool System::look(const algebra::Vector& X, const algebra::Vector& dX, int iteration, double residual, double rhs) {
+/// X_i with what is computed there.
+struct System::Looked {
+  algebra::Vector X, R;
+  State state;
+  explicit Looked(const algebra::MapPtr& map) : X(map), R(map) {}
+};
+
+namespace {
+
+/// The problem knows that an iterate is looked at, as long as this is there.
+struct Look {
+  const Problem& problem;
+  Look(const Problem& of, const algebra::Vector& Xi, const algebra::Vector& R) : problem(of) { problem.look_at(Xi, R); }
+  ~Look() { problem.look_away(); }
+  Look(const Look&) = delete;
+  Look& operator=(const Look&) = delete;
+};
+
+}  // namespace
+
+bool System::look(const algebra::Vector& X, const algebra::Vector& R, const algebra::Vector& dX, int iteration, double residual,
+                  double rhs) {
   LinearRecord record{step_, iteration, residual, std::nullopt};
-  bool enough = false;
+  bool ends = false;
   forget_estimate();
   const bool waits = residual > worth_looking_ && waiting_++ < most_waiting;
   if (iteration > 0 && asks_criterion() && !waits) {
     waiting_ = 0;
-    algebra::Vector Xi(X, Teuchos::Copy);
-    Xi.update(1, dX, 1);
-    record.estimate = estimate(Xi);
-    if (stopping_.rule == StoppingRule::adaptive) {
-      const double excess = algebraic_excess(*record.estimate, stopping_, strictness_.factor());
-      enough = excess <= 1;
-      if (!stopping_.estimate.value_or(false) && std::isfinite(excess)) worth_looking_ = residual * std::min(1.0, impatience / excess);
-    }
-    if (stopping_.rule == StoppingRule::inexact) {
-      algebra::Vector Ri(X.getMap());
-      enough = residual / rhs <= stopping_.inexact_factor * this->residual(Xi, Ri).residual / reference_;
-    }
+    if (!looked_) looked_ = std::make_shared<Looked>(X.getMap());
+    looked_->X.update(1, X, 1, dX, 0);
+    const Look look(problem_, looked_->X, R);
+    ends = enough(residual, rhs, record);
   }
   if (observer_.linear) observer_.linear(record);
   looked_at_ = iteration;
-  return enough;
+  return ends;
+}
+
+/// At the iterate that is looked at.
+bool System::enough(double residual, double rhs, LinearRecord& record) {
+  record.estimate = estimate(looked_->X);
+  if (stopping_.rule == StoppingRule::adaptive) {
+    const double excess = algebraic_excess(*record.estimate, stopping_, strictness_.factor());
+    if (!stopping_.estimate.value_or(false) && std::isfinite(excess)) worth_looking_ = residual * std::min(1.0, impatience / excess);
+    return excess <= 1;
+  }
+  if (stopping_.rule != StoppingRule::inexact) return false;
+  this->residual(looked_->X, looked_->R, looked_->state);
+  return residual / rhs <= stopping_.inexact_factor * looked_->state.residual / reference_;
 }
 
 bool System::asks_estimator() const {
@@ -141,7 +165,7 @@ void System::solve(const algebra::Vector& X, const State& state, const algebra::
   waiting_ = 0;
   if (check_every_ > 0 && (asks_criterion() || observer_.linear)) {
     stop.check_every = check_every_;
-    stop.criterion = [&](const algebra::Vector& dXi, int iteration, double left) { return look(X, dXi, iteration, left, rhs); };
+    stop.criterion = [&](const algebra::Vector& dXi, int iteration, double left) { return look(X, R, dXi, iteration, left, rhs); };
   }
   algebra::LinearReport report = problem_.solve(R, dX, stop);
   report.converged = report.converged || left_to_rounding(X, dX, report.residual);

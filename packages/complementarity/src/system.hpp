@@ -35,7 +35,7 @@ class System {
   void begin_step(int step) { step_ = step; }
 
   /// Overwrites R.
-  State residual(const algebra::Vector& X, algebra::Vector& R);
+  void residual(const algebra::Vector& X, algebra::Vector& R, State& state);
   /// A(X) for the contact set that `residual` found at X; kept inside the problem.
   void linearize(const algebra::Vector& X, const ActiveSet& active);
   /// A(X) dX = -R with the A of the last `linearize`, then (Newton-min) the smoothing that the deck asks for: it finds the contact set, and
@@ -52,9 +52,7 @@ class System {
   const StoppingParams& stopping() const { return stopping_; }
 
   /// What the residual of an iterate may be.
-  double nonlinear_bound(const State& state) const {
-    return stopping_.nonlinear_tolerance * reference_ + stopping_.absolute_tolerance + state.round_off;
-  }
+  double nonlinear_bound(const State& state) const { return stopping_.nonlinear_residual(reference_, state.round_off); }
   double reference() const { return reference_; }               ///< |(F, 0)|, or the first residual where that is 0
   int linear_iterations() const { return linear_iterations_; }  ///< of all systems
   bool solved() const { return solved_; }                       ///< the last system, to its tolerance
@@ -69,7 +67,8 @@ class System {
   double linear_tolerance(double rhs, const State& state) const;
   bool asks_estimator() const;
   bool asks_criterion() const;
-  bool look(const algebra::Vector& X, const algebra::Vector& dX, int iteration, double residual, double rhs);
+  bool look(const algebra::Vector& X, const algebra::Vector& R, const algebra::Vector& dX, int iteration, double residual, double rhs);
+  bool enough(double residual, double rhs, LinearRecord& record);
   bool left_to_rounding(const algebra::Vector& X, const algebra::Vector& dX, double residual) const;
   void judge(const algebra::LinearReport& report, double tolerance, double residual, double correction);
 
@@ -89,6 +88,8 @@ class System {
   bool solved_ = false;
   std::uint64_t contact_set_ = 0;  ///< fingerprint of the one that the last step started from
   double left_ = 0;
+  struct Looked;
+  std::shared_ptr<Looked> looked_;    ///< at the iterate of the linear solver; made at the first look
   double worth_looking_ = 0;          ///< residual of the linear system below which the next estimate is asked for
   int waiting_ = 0;                   ///< looks without an estimate since the last one
   int looked_at_ = 0;                 ///< last iteration of the linear solver that `look` has seen

@@ -153,12 +153,15 @@ std::unique_ptr<ConstrainedSolver> make_constrained_solver(const System& system,
   return std::make_unique<AssembledSolver>(system, part, params, coordinates);
 }
 
-MultiVector at_columns(const System& system, const MultiVector& at_rows) {
-  const auto& matrix = *system.S.matrix[0];
-  MultiVector at_columns(matrix.getColMap(), at_rows.getNumVectors());
-  const auto import = matrix.getGraph()->getImporter();
+void to_columns(const System& system, const MultiVector& at_rows, MultiVector& at_columns) {
+  const auto import = system.S.matrix[0]->getGraph()->getImporter();
   if (import.is_null()) at_columns.assign(at_rows);
   else at_columns.doImport(at_rows, *import, Tpetra::INSERT);
+}
+
+MultiVector at_columns(const System& system, const MultiVector& at_rows) {
+  MultiVector at_columns(system.S.matrix[0]->getColMap(), at_rows.getNumVectors());
+  to_columns(system, at_rows, at_columns);
   return at_columns;
 }
 

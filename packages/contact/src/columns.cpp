@@ -8,20 +8,13 @@ using algebra::MultiVector;
 using algebra::Vector;
 using Range = Kokkos::RangePolicy<Vector::execution_space>;
 
-/// `columns` columns of x on `map`, which begin at `first`.
-MultiVector columns_of(const Vector& x, const algebra::MapPtr& map, LocalIndex first, int columns) {
+/// Columns on `map` that lie one behind the other.
+MultiVector columns_at(const double* begin, const algebra::MapPtr& map, int columns) {
   using View = MultiVector::dual_view_type::t_dev;
-  const auto values = x.getLocalViewDevice(Tpetra::Access::ReadOnly);
-  const std::size_t rows = algebra::local_size(*map);
-  return MultiVector(map, View(const_cast<double*>(values.data()) + first, rows, columns));
+  return MultiVector(map, View(const_cast<double*>(begin), algebra::local_size(*map), columns));
 }
-
-MultiVector columns_of(Vector& x, const algebra::MapPtr& map, LocalIndex first, int columns) {
-  using View = MultiVector::dual_view_type::t_dev;
-  const auto values = x.getLocalViewDevice(Tpetra::Access::ReadWrite);
-  const std::size_t rows = algebra::local_size(*map);
-  return MultiVector(map, View(values.data() + first, rows, columns));
-}
+const double* begin(const Vector& x) { return x.getLocalViewDevice(Tpetra::Access::ReadOnly).data(); }
+double* begin(Vector& x) { return x.getLocalViewDevice(Tpetra::Access::ReadWrite).data(); }
 
 LocalIndex end_of_fields(const System& system) { return system.fields() * algebra::local_size(*system.map()); }
 
@@ -37,16 +30,16 @@ algebra::MapPtr map_of_all(const System& system) {
                                  algebra::comm_of(*system.map()));
 }
 
-MultiVector fields(const System& system, const Vector& X) { return columns_of(X, system.map(), 0, system.fields()); }
-MultiVector fields_nonconst(const System& system, Vector& X) { return columns_of(X, system.map(), 0, system.fields()); }
+MultiVector fields(const System& system, const Vector& X) { return columns_at(begin(X), system.map(), system.fields()); }
+MultiVector fields_nonconst(const System& system, Vector& X) { return columns_at(begin(X), system.map(), system.fields()); }
 MultiVector multipliers(const System& system, const Vector& X) {
-  return columns_of(X, system.points(), end_of_fields(system), system.gaps());
+  return columns_at(begin(X) + end_of_fields(system), system.points(), system.gaps());
 }
 MultiVector multipliers_nonconst(const System& system, Vector& X) {
-  return columns_of(X, system.points(), end_of_fields(system), system.gaps());
+  return columns_at(begin(X) + end_of_fields(system), system.points(), system.gaps());
 }
-MultiVector gaps(const System& system, const Vector& K) { return columns_of(K, system.points(), 0, system.gaps()); }
-MultiVector gaps_nonconst(const System& system, Vector& K) { return columns_of(K, system.points(), 0, system.gaps()); }
+MultiVector gaps(const System& system, const Vector& K) { return columns_at(begin(K), system.points(), system.gaps()); }
+MultiVector gaps_nonconst(const System& system, Vector& K) { return columns_at(begin(K), system.points(), system.gaps()); }
 
 void gap(const System& system, const MultiVector& u, MultiVector& K) {
   const auto of_fields = u.getLocalViewDevice(Tpetra::Access::ReadOnly);

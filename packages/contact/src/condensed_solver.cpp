@@ -1,5 +1,5 @@
 #include "constrained_solver.hpp"
-#include "thixis/method/condensation.hpp"
+#include "thixis/contact/condensation.hpp"
 
 namespace thixis::contact {
 namespace {
@@ -50,31 +50,45 @@ struct Constrain {
   Kokkos::View<const double*> share;
   Matrices A;  ///< out, overwritten
 
-  KOKKOS_FUNCTION void pair(int e, int i, int j, const Small* c) const {
-    const int size = blocks.part.size;
-    const LocalIndex row = elements(first + e, i), column = elements(first + e, j);
-    for (int f = 0; f < size; ++f)
-      for (int g = 0; g < size; ++g) {
-        double value = 0;
-        for (int k = 0; k < blocks.matrices; ++k) value += c[k](f, g) * S[k](e, i, j);
-        if (i == j && f == g) value += share(row) * gaps.added(row, f);
-        else if (gaps.known(row, f) || gaps.known(column, g)) value = 0;
-        A(e, size * i + f, size * j + g) = value;
-      }
-  }
-  KOKKOS_FUNCTION void nothing(int e, int i, int j) const {
-    const int size = blocks.part.size;
-    for (int f = 0; f < size; ++f)
-      for (int g = 0; g < size; ++g) A(e, size * i + f, size * j + g) = i == j && f == g ? 1 : 0;
-  }
   KOKKOS_FUNCTION void operator()(int e) const {
+    if (blocks.frames.uniform() && blocks.part.size == 1) combine_numbers(e);
+    else combine_blocks(e);
+    for (int i = 0; i < elements.extent_int(1); ++i) {
+      const LocalIndex row = elements(first + e, i);
+      for (int f = 0; f < blocks.part.size; ++f) constrain(e, row, f, blocks.part.size * i + f);
+    }
+  }
+  KOKKOS_FUNCTION void combine_numbers(int e) const {
+    const int count = A.extent_int(1) * A.extent_int(2);
+    double* __restrict__ a = &A(e, 0, 0);
+    for (int k = 0; k < blocks.matrices; ++k) {
+      const double c = blocks.uniform[k](0, 0);
+      const double* __restrict__ s = &S[k](e, 0, 0);
+      for (int entry = 0; entry < count; ++entry) a[entry] = k == 0 ? c * s[entry] : a[entry] + c * s[entry];
+    }
+  }
+  KOKKOS_FUNCTION void combine_blocks(int e) const {
     Small room[most_matrices];
+    const int size = blocks.part.size;
     for (int i = 0; i < elements.extent_int(1); ++i)
       for (int j = 0; j < elements.extent_int(1); ++j) {
         const LocalIndex row = elements(first + e, i), column = elements(first + e, j);
-        if (row < 0 || column < 0) nothing(e, i, j);
-        else pair(e, i, j, blocks.at(row, column, room));
+        if (row < 0 || column < 0) continue;  // constrained below
+        const Small* c = blocks.at(row, column, room);
+        for (int f = 0; f < size; ++f)
+          for (int g = 0; g < size; ++g) {
+            double value = 0;
+            for (int k = 0; k < blocks.matrices; ++k) value += c[k](f, g) * S[k](e, i, j);
+            A(e, size * i + f, size * j + g) = value;
+          }
       }
+  }
+  /// Of unknowns that are no rows, 1 stays on the diagonal.
+  KOKKOS_FUNCTION void constrain(int e, LocalIndex row, int f, int at) const {
+    const bool known = row < 0 || gaps.known(row, f);
+    const double diagonal = row < 0 ? 1 : A(e, at, at) + (gaps.added(row, f) == 0 ? 0 : share(row) * gaps.added(row, f));
+    for (int j = 0; known && j < A.extent_int(1); ++j) A(e, at, j) = A(e, j, at) = 0;
+    A(e, at, at) = diagonal;
   }
 };
 
@@ -86,10 +100,12 @@ class CondensedSolver final : public ConstrainedSolver {
         size_(part.size),
         condensation_(algebra::interlaced(system.map(), size_), algebra::interlaced(system.S.matrix[0]->getColMap(), size_),
                       interlaced(cells().elements, size_), size_ * cells().interior,
-                      cells().symmetric ? method::LocalForm::positive_definite : method::LocalForm::general),
+                      cells().symmetric ? LocalForm::positive_definite : LocalForm::general),
         solver_(params),
-        coordinates_(coordinates_left(*coordinates)),
-        share_(share_of_elements(cells().elements, algebra::local_columns(*system.S.matrix[0]))) {}
+        coordinates_(coordinates_left(*coordinates)) {
+    if (part.coordinate[part.size - 1] >= system.fields() - system.gaps())
+      share_ = share_of_elements(cells().elements, algebra::local_columns(*system.S.matrix[0]));
+  }
 
   void set_matrix(const Part& part, const MultiVector& contact, const MultiVector& penalty) override {
     const MultiVector contact_columns = at_columns(system_, contact), penalty_columns = at_columns(system_, penalty);
@@ -174,10 +190,10 @@ class CondensedSolver final : public ConstrainedSolver {
 
   const System& system_;
   int size_;
-  method::Condensation condensation_;
+  Condensation condensation_;
   algebra::Solver solver_;
   Teuchos::RCP<const MultiVector> coordinates_;
-  Kokkos::View<const double*> share_;
+  Kokkos::View<const double*> share_;  ///< of penalties, where there are gaps
   std::vector<Matrices> local_;
 };
 

@@ -28,6 +28,7 @@ std::unique_ptr<ConstrainedSolver> make_condensed_solver(const System& system, c
                                                          const Teuchos::RCP<const algebra::MultiVector>& coordinates);
 
 /// Values at the rows and ghosts of the matrices. Collective.
+void to_columns(const System& system, const algebra::MultiVector& at_rows, algebra::MultiVector& at_columns);
 algebra::MultiVector at_columns(const System& system, const algebra::MultiVector& at_rows);
 
 }  // namespace thixis::contact

@@ -35,12 +35,27 @@ GlobalIndex count_interior(const CellForms& cells, const algebra::Map& map) {
   return algebra::comm_of(map).sum(count);
 }
 
+Weights unit_weights(const System& system) {
+  const BlockOperator& S = system.S;
+  MultiVector diagonals(S.map(), S.fields);
+  S.diagonals(diagonals);
+  Weights weights;
+  weights.field.assign(S.fields, 1);
+  weights.stiffness = stiffness_of_gaps(system, diagonals);
+  return weights;
+}
+
 }  // namespace
 
 Problem::Problem(std::shared_ptr<const System> system, const algebra::LinearParams& params,
                  const Teuchos::RCP<const MultiVector>& coordinates)
+    : Problem(system, unit_weights(*system), norm_of_all(*system->load), params, coordinates) {}
+
+Problem::Problem(std::shared_ptr<const System> system, Weights weights, double reference, const algebra::LinearParams& params,
+                 const Teuchos::RCP<const MultiVector>& coordinates)
     : system_(std::move(system)),
-      reference_(norm_of_all(*system_->load)),
+      weights_(std::move(weights)),
+      reference_(reference),
       params_(params),
       coordinates_(coordinates),
       map_(map_of_all(*system_)),
@@ -49,13 +64,13 @@ Problem::Problem(std::shared_ptr<const System> system, const algebra::LinearPara
       product_(Teuchos::rcp(new MultiVector(system_->map(), system_->fields()))) {
   const BlockOperator& S = system_->S;
   if (S.cells) left_ -= system_->fields() * count_interior(*S.cells, *S.map());
-  MultiVector diagonals(S.map(), S.fields);
-  S.diagonals(diagonals);
-  weights_.field.assign(S.fields, 1);
-  weights_.stiffness = stiffness_of_gaps(*system_, diagonals);
 }
 
 void Problem::equations(const Vector& X, Vector& R) const {
+  if (&X == shown_) {
+    R.assign(*shown_residual_);
+    return;
+  }
   R.putScalar(0);
   MultiVector r = fields_nonconst(*system_, R);
   system_->S.apply(fields(*system_, X), r, *product_);
@@ -96,13 +111,19 @@ void Problem::linearize(const Vector&, const Vector& a, const Vector& b) {
   if (!linearized_) {
     const core::Region region("assembly");
     linearized_ = full() ? make_full_system(*system_, weights_, params_, coordinates_)
-                         : make_reduced_system(*system_, weights_, params_, coordinates_);
+                         : make_reduced_system(*system_, weights_, params_, coordinates_, product_);
   }
   linearized_->linearize(a, b);
 }
 
 algebra::LinearReport Problem::solve(const Vector& R, Vector& dX, const algebra::LinearStop& stop) {
   return linearized_->solve(R, dX, stop);
+}
+
+void Problem::look_at(const Vector& Xi, const Vector& R) const {
+  if (full()) return;
+  if (shown_residual_.is_null()) shown_residual_ = Teuchos::rcp(new Vector(map_));
+  if (linearized_->residual_of_shown(R, *shown_residual_)) shown_ = &Xi;
 }
 
 void Problem::relax(Vector& X, int sweeps) const {

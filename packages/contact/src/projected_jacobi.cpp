@@ -92,19 +92,33 @@ struct Sweep {
   In F, D, offset;
   Out x, lambda;  ///< out
 
-  KOKKOS_FUNCTION void balance(int l, double* balanced, double* diagonal) const {
-    for (int i = 0; i < fields; ++i) {
-      double force = F(l, i);
-      diagonal[i] = 0;
-      for (int k = 0; k < matrices; ++k)
-        for (std::size_t e = S[k].graph.row_map(l); e < S[k].graph.row_map(l + 1); ++e) {
-          const LocalIndex m = S[k].graph.entries(e);
-          for (int j = 0; j < fields; ++j)
-            if (c[k](i, j) != 0) force -= c[k](i, j) * S[k].values(e) * u(m, j);
-          if (m == l) diagonal[i] += c[k](i, i) * S[k].values(e);
-        }
-      balanced[i] = u(l, i) + damping * force / diagonal[i];
+  /// (A u)_l of N fields; returns A_ll.
+  template <int N>
+  KOKKOS_FUNCTION double product(const LocalMatrix& A, int l, double* sum) const {
+    double own = 0, s[N] = {};
+    for (std::size_t e = A.graph.row_map(l); e < A.graph.row_map(l + 1); ++e) {
+      const LocalIndex m = A.graph.entries(e);
+      const double value = A.values(e);
+      for (int j = 0; j < N; ++j) s[j] += value * u(m, j);
+      if (m == l) own = value;
     }
+    for (int j = 0; j < N; ++j) sum[j] = s[j];
+    return own;
+  }
+  KOKKOS_FUNCTION void balance(int l, double* balanced, double* diagonal) const {
+    double force[most_fields], sum[most_fields];
+    for (int i = 0; i < fields; ++i) {
+      force[i] = F(l, i);
+      diagonal[i] = 0;
+    }
+    for (int k = 0; k < matrices; ++k) {
+      const double own = fields == 1 ? product<1>(S[k], l, sum) : fields == 2 ? product<2>(S[k], l, sum) : product<3>(S[k], l, sum);
+      for (int i = 0; i < fields; ++i) {
+        for (int j = 0; j < fields; ++j) force[i] -= c[k](i, j) * sum[j];
+        diagonal[i] += c[k](i, i) * own;
+      }
+    }
+    for (int i = 0; i < fields; ++i) balanced[i] = u(l, i) + damping * force[i] / diagonal[i];
   }
   KOKKOS_FUNCTION void operator()(int l) const {
     double balanced[most_fields], diagonal[most_fields];
@@ -154,7 +168,7 @@ struct Sweep {
 
 }  // namespace
 
-ProjectedJacobi::ProjectedJacobi(const System& system) : system_(system) {
+ProjectedJacobi::ProjectedJacobi(const System& system) : system_(system), point_(points_of_nodes(system)) {
   double largest = 0;
   for (const auto& matrix : system.S.matrix) largest = std::max(largest, largest_eigenvalue(*matrix));
   damping_ = largest > 2 ? 4 / (3 * largest) : 2.0 / 3;
@@ -164,19 +178,22 @@ void ProjectedJacobi::operator()(int sweeps, algebra::Vector& X) const {
   if (sweeps == 0) return;
   MultiVector u_columns = fields_nonconst(system_, X), lambda_columns = multipliers_nonconst(system_, X);
   const auto read = [](const MultiVector& v) { return v.getLocalViewDevice(Tpetra::Access::ReadOnly); };
-  const auto point = points_of_nodes(system_);
+  MultiVector ghosted = at_columns(system_, u_columns);
   for (int sweep = 0; sweep < sweeps; ++sweep) {
-    const MultiVector ghosted = at_columns(system_, u_columns);
+    if (sweep > 0) to_columns(system_, u_columns, ghosted);
     const auto u = read(ghosted);
     const auto out = u_columns.getLocalViewDevice(Tpetra::Access::ReadWrite);
-    Sweep<std::decay_t<decltype(u)>, std::decay_t<decltype(out)>> kernel{system_.fields(), system_.gaps(),
-                                                                         static_cast<int>(system_.S.matrix.size()), damping_};
+    Sweep<std::decay_t<decltype(u)>, std::decay_t<decltype(out)>> kernel;
+    kernel.fields = system_.fields();
+    kernel.gaps = system_.gaps();
+    kernel.matrices = static_cast<int>(system_.S.matrix.size());
+    kernel.damping = damping_;
     for (int k = 0; k < kernel.matrices; ++k) {
       kernel.S[k] = system_.S.matrix[k]->getLocalMatrixDevice();
       kernel.c[k] = system_.S.weight[k];
     }
     kernel.frames = system_.constraint.frames;
-    kernel.point = point;
+    kernel.point = point_;
     kernel.u = u;
     kernel.F = read(*system_.load);
     kernel.D = read(*system_.constraint.pairing);

@@ -7,7 +7,42 @@ using algebra::MultiVector;
 using Range = Kokkos::RangePolicy<algebra::Vector::execution_space>;
 
 auto read(const MultiVector& v) { return v.getLocalViewDevice(Tpetra::Access::ReadOnly); }
-auto overwrite(MultiVector& v) { return v.getLocalViewDevice(Tpetra::Access::OverwriteAll); }
+
+/// out_l = M in_l or Mᵀ in_l, M that of the node's kind.
+template <class In, class Out>
+struct AtNodes {
+  Frames frames;
+  Kokkos::View<const Small*> M;  ///< (kind)
+  bool transposed;
+  int fields;
+  In in;
+  Out out;  ///< overwritten; may be `in`
+
+  KOKKOS_FUNCTION void operator()(int l) const {
+    const Small& of_node = M(frames.at(l));
+    double x[most_fields];
+    for (int j = 0; j < fields; ++j) x[j] = in(l, j);
+    for (int i = 0; i < fields; ++i) {
+      double sum = 0;
+      for (int j = 0; j < fields; ++j) sum += (transposed ? of_node(j, i) : of_node(i, j)) * x[j];
+      out(l, i) = sum;
+    }
+  }
+};
+
+void at_nodes(const char* name, const System& system, const Kokkos::View<const Small*>& M, bool transposed, const MultiVector& x,
+              MultiVector& y) {
+  const auto in = read(x);
+  const auto out = y.getLocalViewDevice(Tpetra::Access::ReadWrite);
+  AtNodes<std::decay_t<decltype(in)>, std::decay_t<decltype(out)>> kernel;
+  kernel.frames = system.constraint.frames;
+  kernel.M = M;
+  kernel.transposed = transposed;
+  kernel.fields = system.fields();
+  kernel.in = in;
+  kernel.out = out;
+  Kokkos::parallel_for(name, Range(0, in.extent_int(0)), kernel);
+}
 
 }  // namespace
 
@@ -26,42 +61,18 @@ TransformedBlocks::TransformedBlocks(const System& system, const Part& of)
   between(T(0), T(0), uniform);
 }
 
-TransformedOperator::TransformedOperator(const System& system)
-    : system_(system),
-      blocks_(system, all_coordinates(system.fields())),
-      left_(system.map(), system.fields()),
-      right_(system.map(), system.fields()) {}
+TransformedOperator::TransformedOperator(const System& system, const Teuchos::RCP<MultiVector>& product)
+    : system_(system), blocks_(system, all_coordinates(system.fields())), product_(product) {
+  if (blocks_.frames.uniform())
+    uniform_ = BlockOperator{blocks_.fields, system.S.matrix, {blocks_.uniform, blocks_.uniform + blocks_.matrices}, nullptr};
+  else u_ = Teuchos::rcp(new MultiVector(system.map(), system.fields()));
+}
 
-void TransformedOperator::apply(const MultiVector& y, int first, MultiVector& out) const {
-  const int rows = static_cast<int>(out.getNumVectors()), fields = blocks_.fields;
-  if (!blocks_.frames.uniform()) {
-    apply_frames(system_, y, left_);
-    MultiVector product(system_.map(), fields);
-    system_.S.apply(left_, right_, product);
-    transpose_frames(system_, right_, product);
-    Tpetra::deep_copy(out, *product.subView(Teuchos::Range1D(first, first + rows - 1)));
-    return;
-  }
-  out.putScalar(0);
-  const Teuchos::Range1D columns(0, rows - 1);
-  const auto combined = left_.subViewNonConst(columns), product = right_.subViewNonConst(columns);
-  for (int k = 0; k < blocks_.matrices; ++k) {
-    {
-      const auto in = read(y);
-      const auto to = overwrite(*combined);
-      const Small c = blocks_.uniform[k];
-      Kokkos::parallel_for(
-          "thixis::contact::combine", Range(0, in.extent_int(0)), KOKKOS_LAMBDA(int l) {
-            for (int i = 0; i < rows; ++i) {
-              double sum = 0;
-              for (int j = 0; j < fields; ++j) sum += c(first + i, j) * in(l, j);
-              to(l, i) = sum;
-            }
-          });
-    }
-    system_.S.matrix[k]->apply(*combined, *product);
-    out.update(1, *product, 1);
-  }
+void TransformedOperator::apply(const MultiVector& y, MultiVector& out) const {
+  if (u_.is_null()) return uniform_.apply(y, out, *product_);
+  apply_frames(system_, y, *u_);
+  system_.S.apply(*u_, out, *product_);
+  transpose_frames(system_, out, out);
 }
 
 void TransformedOperator::diagonal(int first, MultiVector& out) const {
@@ -82,36 +93,14 @@ void TransformedOperator::diagonal(int first, MultiVector& out) const {
   }
 }
 
-void transpose_frames(const System& system, const MultiVector& r, MultiVector& y) {
-  const auto in = read(r);
-  const auto out = overwrite(y);
-  const auto frames = system.constraint.frames;
-  const int m = system.fields();
-  Kokkos::parallel_for(
-      "thixis::contact::to_coordinates", Range(0, in.extent_int(0)), KOKKOS_LAMBDA(int l) {
-        const Small& T = frames.T(frames.at(l));
-        for (int i = 0; i < m; ++i) {
-          double sum = 0;
-          for (int a = 0; a < m; ++a) sum += T(a, i) * in(l, a);
-          out(l, i) = sum;
-        }
-      });
-}
-
 void apply_frames(const System& system, const MultiVector& y, MultiVector& u) {
-  const auto in = read(y);
-  const auto out = overwrite(u);
-  const auto frames = system.constraint.frames;
-  const int m = system.fields();
-  Kokkos::parallel_for(
-      "thixis::contact::to_fields", Range(0, in.extent_int(0)), KOKKOS_LAMBDA(int l) {
-        const Small& T = frames.T(frames.at(l));
-        for (int a = 0; a < m; ++a) {
-          double sum = 0;
-          for (int i = 0; i < m; ++i) sum += T(a, i) * in(l, i);
-          out(l, a) = sum;
-        }
-      });
+  at_nodes("thixis::contact::to_fields", system, system.constraint.frames.T, false, y, u);
+}
+void transpose_frames(const System& system, const MultiVector& r, MultiVector& y) {
+  at_nodes("thixis::contact::to_coordinates", system, system.constraint.frames.T, true, r, y);
+}
+void leave_frames(const System& system, const MultiVector& y, MultiVector& r) {
+  at_nodes("thixis::contact::out_of_coordinates", system, system.constraint.frames.inverse, true, y, r);
 }
 
 Kokkos::View<const LocalIndex*> points_of_nodes(const System& system) {

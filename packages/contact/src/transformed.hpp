@@ -64,21 +64,25 @@ struct GapsOfPart {
 /// Tᵀ S T, applied.
 class TransformedOperator {
  public:
-  explicit TransformedOperator(const System& system);
-  /// out <- rows `first`, first + 1, … of Tᵀ S T y: one product with each matrix.
-  void apply(const algebra::MultiVector& y, int first, algebra::MultiVector& out) const;
-  /// The diagonal of those rows.
+  /// product: room for a column a field, used in calls only.
+  TransformedOperator(const System& system, const Teuchos::RCP<algebra::MultiVector>& product);
+  /// out <- Tᵀ S T y: one product with each matrix.
+  void apply(const algebra::MultiVector& y, algebra::MultiVector& out) const;
+  /// The diagonal of the rows `first`, first + 1, …
   void diagonal(int first, algebra::MultiVector& out) const;
 
  private:
   const System& system_;
   TransformedBlocks blocks_;
-  mutable algebra::MultiVector left_, right_;
+  BlockOperator uniform_;  ///< of frames that are the same everywhere: other weights of the same matrices
+  Teuchos::RCP<algebra::MultiVector> product_;
+  Teuchos::RCP<algebra::MultiVector> u_;  ///< T y, of other frames
 };
 
-/// y <- Tᵀ r and u <- T y, node by node.
-void transpose_frames(const System& system, const algebra::MultiVector& r, algebra::MultiVector& y);
+/// u <- T y, y <- Tᵀ r, and r <- T^{-T} y, node by node; both may be the same columns.
 void apply_frames(const System& system, const algebra::MultiVector& y, algebra::MultiVector& u);
+void transpose_frames(const System& system, const algebra::MultiVector& r, algebra::MultiVector& y);
+void leave_frames(const System& system, const algebra::MultiVector& y, algebra::MultiVector& r);
 
 Part all_coordinates(int fields);
 

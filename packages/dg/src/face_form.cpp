@@ -1,13 +1,27 @@
 #include "face_form.hpp"
 
-#include <array>
-
-#include "thixis/reference/quadrature.hpp"
-
 namespace thixis::dg {
 namespace {
 
 constexpr int most = reference::max_functions;
+
+/// Each face has its k-th place among those that are asked for.
+struct SetFaces {
+  View<LocalIndex*[3]> vertices, cell_faces;
+  View<LocalIndex*[2]> face_vertices, face_cells;
+  View<const LocalIndex*> face;
+  View<LocalIndex*[2]> cell, side;  ///< out, overwritten
+
+  KOKKOS_FUNCTION void operator()(int k) const {
+    const LocalIndex F = face(k);
+    for (int s = 0; s < 2; ++s) {
+      const LocalIndex K = cell(k, s) = face_cells(F, s);
+      if (K < 0) continue;
+      const int f = mesh::local_face(cell_faces, K, F);
+      side(k, s) = 2 * f + (face_vertices(F, 0) == vertices(K, (f + 1) % 3) ? 0 : 1);
+    }
+  }
+};
 
 struct FaceMatrices {
   View<double* [2]> x;
@@ -15,8 +29,8 @@ struct FaceMatrices {
   View<LocalIndex* [2]> face_vertices;
   Faces faces;
   Traces traces;
-  Penalty penalty;
-  LocalIndex first;
+  Penalty penalty{};
+  LocalIndex first = 0;
   Tensions mu;
   Matrices A;  ///< out, overwritten
 
@@ -70,57 +84,33 @@ struct FaceMatrices {
 
 }  // namespace
 
-Traces traces(const reference::CellBasis& basis, int order) {
-  constexpr double corner[3][2] = {{0, 0}, {1, 0}, {0, 1}};
-  const auto rule = reference::line_quadrature(order);
-  const int n = basis.size(), points = rule.size(), p = basis.degree();
-  View<double*> t("thixis::dg::points", points), weight("thixis::dg::weights", points);
-  Kokkos::View<double***, Kokkos::LayoutRight> value("thixis::dg::traces", 6, points, n);
-  Kokkos::View<double*** [3], Kokkos::LayoutRight> derivative("thixis::dg::trace_derivatives", 6, points, n);
-  Kokkos::View<int**, Kokkos::LayoutRight> on_face("thixis::dg::on_face", 3, p + 1);
-  const auto t_host = Kokkos::create_mirror_view(t), weight_host = Kokkos::create_mirror_view(weight);
-  const auto value_host = Kokkos::create_mirror_view(value);
-  const auto derivative_host = Kokkos::create_mirror_view(derivative);
-  const auto on_host = Kokkos::create_mirror_view(on_face);
-  for (int q = 0; q < points; ++q) {
-    t_host(q) = rule.point[q];
-    weight_host(q) = rule.weight[q];
-  }
-  for (int f = 0; f < 3; ++f) {
-    for (int back = 0; back < 2; ++back)
-      for (int q = 0; q < points; ++q) {
-        const double s = back ? 1 - rule.point[q] : rule.point[q];
-        double at[2], B[most], dB[most][3];
-        for (int d = 0; d < 2; ++d) at[d] = (1 - s) * corner[(f + 1) % 3][d] + s * corner[(f + 2) % 3][d];
-        const double lambda[3] = {1 - at[0] - at[1], at[0], at[1]};
-        basis.bernstein().values(lambda, B);
-        basis.bernstein().derivatives(lambda, dB);
-        for (int i = 0; i < n; ++i)
-          for (int k = 0; k < n; ++k) {
-            const double c = basis.to_bernstein()[k * n + i];
-            value_host(2 * f + back, q, i) += c * B[k];
-            for (int a = 0; a < 3; ++a) derivative_host(2 * f + back, q, i, a) += c * dB[k][a];
-          }
-      }
-    int count = 0;
-    for (int i = 0; i < n; ++i) {
-      const auto& entity = basis.entities()[i];
-      const bool end = entity.kind == reference::Entity::vertex && entity.index != f;
-      if (end || (entity.kind == reference::Entity::face && entity.index == f)) on_host(f, count++) = i;
-    }
-  }
-  Kokkos::deep_copy(t, t_host);
-  Kokkos::deep_copy(weight, weight_host);
-  Kokkos::deep_copy(value, value_host);
-  Kokkos::deep_copy(derivative, derivative_host);
-  Kokkos::deep_copy(on_face, on_host);
-  return {t, weight, value, derivative, on_face};
+Faces faces_of(const mesh::Mesh& mesh, const View<const LocalIndex*>& face) {
+  const View<LocalIndex*[2]> cell("thixis::dg::face_cells", face.extent(0)), side("thixis::dg::face_sides", face.extent(0));
+  SetFaces kernel;
+  kernel.vertices = mesh.cell_vertices;
+  kernel.cell_faces = mesh.cell_faces;
+  kernel.face_vertices = mesh.face_vertices;
+  kernel.face_cells = mesh.face_cells;
+  kernel.face = face;
+  kernel.cell = cell;
+  kernel.side = side;
+  Kokkos::parallel_for("thixis::dg::faces", Kokkos::RangePolicy<>(0, face.extent_int(0)), kernel);
+  return {face, cell, side};
 }
 
 void face_matrices(const mesh::Mesh& mesh, const Faces& faces, const Traces& traces, const Penalty& penalty, LocalIndex first,
                    const Tensions& mu, const Matrices& A) {
-  Kokkos::parallel_for("thixis::dg::face_matrices", Kokkos::RangePolicy<>(0, A.extent_int(0)),
-                       FaceMatrices{mesh.coordinates, mesh.cell_vertices, mesh.face_vertices, faces, traces, penalty, first, mu, A});
+  FaceMatrices kernel;
+  kernel.x = mesh.coordinates;
+  kernel.vertices = mesh.cell_vertices;
+  kernel.face_vertices = mesh.face_vertices;
+  kernel.faces = faces;
+  kernel.traces = traces;
+  kernel.penalty = penalty;
+  kernel.first = first;
+  kernel.mu = mu;
+  kernel.A = A;
+  Kokkos::parallel_for("thixis::dg::face_matrices", Kokkos::RangePolicy<>(0, A.extent_int(0)), kernel);
 }
 
 }  // namespace thixis::dg

@@ -2,7 +2,7 @@
 #include <vector>
 
 #include "thixis/mesh/geometry.hpp"
-#include "thixis/method/space.hpp"
+#include "thixis/method/form.hpp"
 #include "thixis/reference/cell_basis.hpp"
 
 namespace thixis::dg {
@@ -27,6 +27,8 @@ struct Faces {
   View<const LocalIndex*> face;
   View<const LocalIndex*[2]> cell, side;  ///< side: index into Traces, seen from the lower vertex id to the higher one
 };
+
+Faces faces_of(const mesh::Mesh& mesh, const View<const LocalIndex*>& face);
 
 /// (e, q, s): trace of the tension from K+ and K- at the points of the faces; on the boundary both are that of the one cell.
 using Tensions = Kokkos::View<double** [2], Kokkos::LayoutRight>;

@@ -1,11 +1,11 @@
 #pragma once
-#include "face_form.hpp"
+#include "face_data.hpp"
 #include "thixis/method/flux_density.hpp"
 
 namespace thixis::dg {
 
 using Table = Kokkos::View<const double**, Kokkos::LayoutRight>;
-using ElementEntries = Kokkos::View<const LocalIndex**, Kokkos::LayoutRight>;
+using method::ElementEntries;
 
 /// What the flux of dG needs of the reference cell, q = p.
 struct FluxTables {
@@ -30,6 +30,10 @@ FaceMoments face_moments(const mesh::Mesh& mesh, int degree);
 void add_face_fluxes(const mesh::Mesh& mesh, const Faces& faces, const Traces& traces, const Penalty& penalty, bool held, LocalIndex first,
                      LocalIndex count, const Tensions& mu, const ElementEntries& entries, const Kokkos::View<const double*>& u,
                      const FaceMoments& moments);
+
+/// Adds what boundary data change of both: weak Dirichlet data g take g off [u], tractions t (`weak` null) make sigma·n = -t.
+void add_boundary_fluxes(const mesh::Mesh& mesh, const BoundaryData& data, const Traces& traces, const Penalty* weak,
+                         const FaceMoments& moments);
 
 /// sigma on the first `owned` cells (docs/methods/dg.md, 4): the normal fluxes of its faces, and
 ///

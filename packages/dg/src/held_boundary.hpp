@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "thixis/algebra/fwd.hpp"
-#include "thixis/method/polynomial_space.hpp"
+#include "thixis/method/form.hpp"
 
 namespace thixis::dg {
 
@@ -22,7 +22,7 @@ namespace thixis::dg {
 class HeldBoundary {
  public:
   /// `dirichlet`: the tags whose faces are held. The space must outlive this. Collective.
-  HeldBoundary(const method::PolynomialSpace& space, const std::vector<bool>& dirichlet);
+  HeldBoundary(const method::Space& space, const std::vector<bool>& dirichlet);
   /// Adds to sigma on the owned cells. Collective.
   void balance(const scene::Field& force, double t, const method::HeldSource& source, const method::View<double**>& sigma) const;
 
@@ -55,7 +55,7 @@ class HeldBoundary {
 
   bool owned(const Cell& cell) const { return cell.position < space_.mesh().owned_cells; }
 
-  const method::PolynomialSpace& space_;
+  const method::Space& space_;
   mesh::HostMesh host_;
   int functions_, width_;  ///< n; coefficients of a flux
   std::vector<Cell> cells_;

@@ -1,4 +1,4 @@
-#include "cut.hpp"
+#include "thixis/equilibration/cut.hpp"
 
 #include <array>
 #include <cmath>

@@ -12,7 +12,7 @@ method::Structure lagrange_nodes(const mesh::Mesh& mesh, const method::SpaceOpti
   s.element_entries = nodes.of_cells;
   s.cell_entries = s.entries.size();
   s.global_cell_entries = mesh.global_vertices + (basis.degree() - 1) * mesh.global_faces + basis.interior() * mesh.global_cells;
-  s.interior = options.params.condensed() ? basis.interior() : 0;
+  s.interior = options.params.condensation.value_or(false) ? basis.interior() : 0;
   return s;
 }
 

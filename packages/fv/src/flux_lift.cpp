@@ -6,6 +6,7 @@
 #include "thixis/algebra/solver.hpp"
 #include "thixis/algebra/tpetra.hpp"
 #include "thixis/core/assert.hpp"
+#include "thixis/fv/host.hpp"
 
 namespace thixis::fv {
 namespace {
@@ -70,20 +71,17 @@ struct FluxLift::Impl {
   }
 
   void assemble() {
-    const auto host = [](const auto& view) { return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), view); };
-    const auto begin = host(grid.cell_face_begin), faces = host(grid.cell_faces);
-    const auto cells = host(grid.face_cells);
-    const auto area = host(grid.face_area), distance = host(grid.face_distance), volume = host(grid.volume);
-    const auto held_host = host(held);
+    const HostGrid host = on_host(grid);
+    const auto held_host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), held);
     std::vector<std::size_t> rows = {0};
     std::vector<LocalIndex> columns;
     std::vector<double> values;
     std::vector<std::pair<LocalIndex, double>> row;
     for (LocalIndex K = 0; K < grid.owned_cells; ++K) {
-      row.assign(1, {K, c * volume(K)});
-      for (LocalIndex f = begin(K); f < begin(K + 1); ++f) {
-        const LocalIndex F = faces(f), L = cells(F, 0) == K ? cells(F, 1) : cells(F, 0);
-        const double conductance = area(F) / distance(F);
+      row.assign(1, {K, c * host.volume(K)});
+      for (LocalIndex f = host.cell_face_begin(K); f < host.cell_face_begin(K + 1); ++f) {
+        const LocalIndex F = host.cell_faces(f), L = host.face_cells(F, host.face_cells(F, 0) == K ? 1 : 0);
+        const double conductance = host.face_area(F) / host.face_distance(F);
         if (L >= 0) row.emplace_back(L, -conductance);
         if (L >= 0 || held_host(F)) row[0].second += conductance;
       }

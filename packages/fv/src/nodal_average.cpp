@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "averaging_nodes.hpp"
 #include "thixis/algebra/tpetra.hpp"
 
 namespace thixis::fv {
@@ -10,26 +11,6 @@ namespace {
 
 using algebra::MultiVector;
 using Range = Kokkos::RangePolicy<MultiVector::execution_space>;
-
-/// Lists of equal meaning one after the other: entries begin(i), ..., begin(i + 1) - 1 belong to i.
-struct Lists {
-  View<LocalIndex*> begin, entry;
-};
-
-Lists lists(const std::vector<std::vector<LocalIndex>>& of, const std::string& name) {
-  Lists out{View<LocalIndex*>("thixis::fv::" + name + "_begin", of.size() + 1), {}};
-  const auto begin = Kokkos::create_mirror_view(out.begin);
-  begin(0) = 0;
-  for (std::size_t i = 0; i < of.size(); ++i) begin(i + 1) = begin(i) + static_cast<LocalIndex>(of[i].size());
-  out.entry = View<LocalIndex*>("thixis::fv::" + name, begin(of.size()));
-  const auto entry = Kokkos::create_mirror_view(out.entry);
-  LocalIndex next = 0;
-  for (const auto& list : of)
-    for (const LocalIndex i : list) entry(next++) = i;
-  Kokkos::deep_copy(out.begin, begin);
-  Kokkos::deep_copy(out.entry, entry);
-  return out;
-}
 
 /// sums(node, j) = sum over the owned cells around it of p_j there; sums(node, m + j) = sum over the held faces F of
 /// the value given there, at a corner with what p_j of the cell behind F changes by from the midpoint of F.
@@ -159,81 +140,23 @@ struct Distance {
 
 struct NodalAverage::Impl {
   Grid grid;
-  Lists cells, held;  ///< owned cells and held faces around each node
-  View<LocalIndex**> corners;
-  View<LocalIndex*> face_node;
-  View<double*[2]> position, count;
+  AveragingNodes at;
+  View<double* [2]> count;  ///< cells and held faces around each node, of all ranks
   algebra::MapPtr nodes, unique;
   Teuchos::RCP<const algebra::Import> import;
 
   Impl(const Grid& on, const std::vector<bool>& held_faces)
-      : grid(on), corners("thixis::fv::corner_nodes", on.owned_cells, on.corners()), face_node("thixis::fv::face_nodes", on.faces) {
-    const auto host = [](const auto& view) { return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), view); };
-    const auto begin = host(grid.cell_face_begin), faces = host(grid.cell_faces);
-    const auto vertices = host(grid.cell_vertices);
-    const auto vertex = host(grid.vertex), face_centre = host(grid.face_centre), normal = host(grid.face_normal);
-    const auto area = host(grid.face_area);
-    const auto face_cells = host(grid.face_cells);
-    const auto corners_host = Kokkos::create_mirror_view(corners);
-    const auto face_node_host = Kokkos::create_mirror_view(face_node);
-
-    std::vector<LocalIndex> node_of_vertex(grid.vertices, -1);
-    std::vector<GlobalIndex> ids;
-    std::vector<std::array<double, 2>> places;
-    std::vector<std::vector<LocalIndex>> cells_around, held_around;
-    const auto add = [&](GlobalIndex id, double x, double y) {
-      ids.push_back(id);
-      places.push_back({x, y});
-      cells_around.emplace_back();
-      held_around.emplace_back();
-      return static_cast<LocalIndex>(ids.size() - 1);
-    };
-    for (LocalIndex K = 0; K < grid.owned_cells; ++K)
-      for (int i = 0; i < grid.corners(); ++i) {
-        const LocalIndex v = vertices(K, i);
-        if (node_of_vertex[v] < 0) node_of_vertex[v] = add(grid.vertex_id[v], vertex(v, 0), vertex(v, 1));
-        corners_host(K, i) = node_of_vertex[v];
-        cells_around[node_of_vertex[v]].push_back(K);
-      }
-    for (LocalIndex F = 0; F < grid.faces; ++F)  // in one dimension its vertex
-      face_node_host(F) = grid.dimension == 1 ? -1 : add(grid.global_vertices + grid.face_id[F], face_centre(F, 0), face_centre(F, 1));
-    for (LocalIndex K = 0; K < grid.owned_cells; ++K)
-      for (LocalIndex f = begin(K); f < begin(K + 1); ++f) {
-        const LocalIndex F = faces(f);
-        if (grid.dimension == 2) cells_around[face_node_host(F)].push_back(K);
-        if (!held_faces[F]) continue;
-        if (grid.dimension == 2) held_around[face_node_host(F)].push_back(F);
-        for (int i = 0; i < grid.corners(); ++i) {
-          const LocalIndex v = vertices(K, i);
-          double off = 0;
-          for (int c = 0; c < 2; ++c) off += (vertex(v, c) - face_centre(F, c)) * normal(F, c);
-          const double width = grid.dimension == 1 ? std::abs(vertex(vertices(K, 1), 0) - vertex(vertices(K, 0), 0)) : area(F);
-          if (std::abs(off) <= 1e-6 * width) held_around[corners_host(K, i)].push_back(F);
-        }
-      }
-    Kokkos::deep_copy(corners, corners_host);
-    Kokkos::deep_copy(face_node, face_node_host);
-    cells = lists(cells_around, "node_cells");
-    held = lists(held_around, "node_faces");
-    position = View<double* [2]>("thixis::fv::node_position", ids.size());
-    const auto position_host = Kokkos::create_mirror_view(position);
-    for (std::size_t i = 0; i < ids.size(); ++i)
-      for (int c = 0; c < 2; ++c) position_host(i, c) = places[i][c];
-    Kokkos::deep_copy(position, position_host);
-
-    nodes = algebra::map_of(ids, grid.comm);
+      : grid(on), at(averaging_nodes(on, held_faces)), count("thixis::fv::node_count", at.ids.size()) {
+    nodes = algebra::map_of(at.ids, grid.comm);
     unique = Tpetra::createOneToOne(nodes);
     import = Teuchos::rcp(new algebra::Import(unique, nodes));
     MultiVector counts(nodes, 2);
     {
       const auto values = counts.getLocalViewHost(Tpetra::Access::OverwriteAll);
-      for (std::size_t i = 0; i < ids.size(); ++i) {
-        values(i, 0) = static_cast<double>(cells_around[i].size());
-        values(i, 1) = static_cast<double>(held_around[i].size());
-      }
+      for (std::size_t i = 0; i < at.count.size(); ++i)
+        for (int c = 0; c < 2; ++c) values(i, c) = at.count[i][c];
     }
     add_up(counts);
-    count = View<double* [2]>("thixis::fv::node_count", ids.size());
     Kokkos::deep_copy(count, std::as_const(counts).getLocalViewDevice(Tpetra::Access::ReadOnly));
   }
 
@@ -252,13 +175,28 @@ NodalAverage::~NodalAverage() = default;
 void NodalAverage::operator()(const View<const Quadratic**>& p, const View<const double**>& given, const View<double**>& square) const {
   const Impl& in = *impl_;
   MultiVector sums(in.nodes, 2 * p.extent(1));
-  Kokkos::parallel_for("thixis::fv::gather_nodes", Range(0, in.position.extent_int(0)),
-                       Gather{in.cells, in.held, in.grid.face_cells, in.grid.centre, in.grid.face_centre, in.position, p, given,
-                              sums.getLocalViewDevice(Tpetra::Access::OverwriteAll)});
+  Gather gather;
+  gather.cells = in.at.cells;
+  gather.held = in.at.held;
+  gather.face_cells = in.grid.face_cells;
+  gather.centre = in.grid.centre;
+  gather.face_centre = in.grid.face_centre;
+  gather.position = in.at.position;
+  gather.p = p;
+  gather.given = given;
+  gather.sums = sums.getLocalViewDevice(Tpetra::Access::OverwriteAll);
+  Kokkos::parallel_for("thixis::fv::gather_nodes", Range(0, in.at.position.extent_int(0)), gather);
   in.add_up(sums);
-  Kokkos::parallel_for("thixis::fv::distance_from_average", Range(0, in.grid.owned_cells),
-                       Distance{RaviartThomas(in.grid), in.corners, in.face_node, in.position, in.count, p,
-                                sums.getLocalViewDevice(Tpetra::Access::ReadWrite), in.grid.dimension, square});
+  Distance distance{RaviartThomas(in.grid)};
+  distance.corners = in.at.corners;
+  distance.face_node = in.at.face_node;
+  distance.position = in.at.position;
+  distance.count = in.count;
+  distance.p = p;
+  distance.sums = sums.getLocalViewDevice(Tpetra::Access::ReadWrite);
+  distance.dimension = in.grid.dimension;
+  distance.square = square;
+  Kokkos::parallel_for("thixis::fv::distance_from_average", Range(0, in.grid.owned_cells), distance);
 }
 
 }  // namespace thixis::fv

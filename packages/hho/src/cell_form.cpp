@@ -122,7 +122,7 @@ void add_square(const std::vector<double>& D, const std::vector<double>& M, int 
     }
 }
 
-class ConstantForm final : public method::CellForm {
+class ConstantForm final : public method::ElementForm {
  public:
   ConstantForm(const Cells& cells, const ReferenceCell& reference, double mu) : cells_(cells), mu_(mu) {
     const int n = reference.unknowns, m = reference.B.size;
@@ -145,7 +145,7 @@ class ConstantForm final : public method::CellForm {
   double mu_;
 };
 
-class VaryingForm final : public method::CellForm {
+class VaryingForm final : public method::ElementForm {
  public:
   VaryingForm(const Cells& cells, const ReferenceCell& reference, const method::CellQuadrature& quadrature, const View<const double*>& mu)
       : cells_(cells), quadrature_(quadrature), mu_(mu), B_(reference.B) {
@@ -159,8 +159,16 @@ class VaryingForm final : public method::CellForm {
     Q_ = method::matrix_view("thixis::hho::reference_squares", 3, n * n, Q);
   }
   void matrices(LocalIndex first, const method::LocalMatrices& A) const override {
-    Kokkos::parallel_for("thixis::hho::cell_form_varying", Kokkos::RangePolicy<>(0, A.extent_int(0)),
-                         VaryingTension{cells_, quadrature_, mu_, B_, G_, Q_, first, A});
+    VaryingTension kernel;
+    kernel.cells = cells_;
+    kernel.quadrature = quadrature_;
+    kernel.mu = mu_;
+    kernel.B = B_;
+    kernel.G = G_;
+    kernel.Q = Q_;
+    kernel.first = first;
+    kernel.A = A;
+    Kokkos::parallel_for("thixis::hho::cell_form_varying", Kokkos::RangePolicy<>(0, A.extent_int(0)), kernel);
   }
 
  private:
@@ -173,9 +181,9 @@ class VaryingForm final : public method::CellForm {
 
 }  // namespace
 
-std::shared_ptr<const method::CellForm> cell_form(const mesh::Mesh& mesh, const method::CellQuadrature& quadrature,
-                                                  const ReferenceCell& reference, const method::MethodParams& params,
-                                                  const scene::Field& tension) {
+std::shared_ptr<const method::ElementForm> cell_form(const mesh::Mesh& mesh, const method::CellQuadrature& quadrature,
+                                                     const ReferenceCell& reference, const method::MethodParams& params,
+                                                     const scene::Field& tension) {
   const Cells cells = cells_of(mesh, quadrature.cell, reference, params);
   if (const double* mu = tension.constant()) return std::make_shared<ConstantForm>(cells, reference, *mu);
   return std::make_shared<VaryingForm>(cells, reference, quadrature, method::tension_at_points(mesh, quadrature, tension));

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "reference_cell.hpp"
+#include "thixis/hho/params.hpp"
 #include "thixis/mesh/geometry.hpp"
 #include "thixis/method/space.hpp"
 
@@ -19,7 +20,7 @@ struct Cells {
   View<const LocalIndex*> cells;  ///< patch cells
   int degree, functions;
   double kappa;
-  method::StabilizationLength length;
+  StabilizationLength length;
 
   KOKKOS_FUNCTION mesh::CellGeometry geometry(LocalIndex k) const { return mesh::cell_geometry(x, vertices, cells(k)); }
 
@@ -39,14 +40,15 @@ struct Cells {
       weight[f] = 2 * K.area * std::sqrt(K.gradient[f][0] * K.gradient[f][0] + K.gradient[f][1] * K.gradient[f][1]);
       longest = weight[f] > longest ? weight[f] : longest;
     }
-    for (int f = 0; f < 3; ++f) weight[f] = length == method::StabilizationLength::face ? kappa : kappa * weight[f] / longest;
+    for (int f = 0; f < 3; ++f) weight[f] = length == StabilizationLength::face ? kappa : kappa * weight[f] / longest;
   }
 };
 
 inline Cells cells_of(const mesh::Mesh& mesh, const View<const LocalIndex*>& cells, const ReferenceCell& reference,
                       const method::MethodParams& params) {
-  return {mesh.coordinates, mesh.cell_vertices,  mesh.cell_faces,      mesh.face_vertices,         cells,
-          reference.degree, reference.functions, params.stabilization, params.stabilization_length};
+  const Params& own = params.own.get<Params>();
+  return {mesh.coordinates, mesh.cell_vertices,  mesh.cell_faces,   mesh.face_vertices,      cells,
+          reference.degree, reference.functions, own.stabilization, own.stabilization_length};
 }
 
 }  // namespace thixis::hho

@@ -143,10 +143,25 @@ void native_flux(const mesh::Mesh& mesh, const ReferenceCell& reference, const F
   const Cells cells = cells_of(mesh, density.quadrature.cell, reference, params);
   const int p = reference.degree, count = tables.from_moments.extent_int(1);
   const Moments data("thixis::hho::flux_moments", entries.extent(0), count);
-  Kokkos::parallel_for("thixis::hho::flux_moments", Kokkos::RangePolicy<>(0, entries.extent_int(0)),
-                       OwnMoments{cells, density, tables.differences, tables.trace, entries, u, (count - 3 * p) / 2, data});
-  Kokkos::parallel_for("thixis::hho::native_flux", Kokkos::RangePolicy<>(0, owned),
-                       Sigma{cells, faces, tables.from_moments, data, mesh.cell_faces, mesh.face_cells, sigma});
+  OwnMoments own;
+  own.cells = cells;
+  own.density = density;
+  own.differences = tables.differences;
+  own.trace = tables.trace;
+  own.entries = entries;
+  own.u = u;
+  own.inside = (count - 3 * p) / 2;
+  own.data = data;
+  Kokkos::parallel_for("thixis::hho::flux_moments", Kokkos::RangePolicy<>(0, entries.extent_int(0)), own);
+  Sigma kernel;
+  kernel.cells = cells;
+  kernel.faces = faces;
+  kernel.from_moments = tables.from_moments;
+  kernel.data = data;
+  kernel.cell_faces = mesh.cell_faces;
+  kernel.face_cells = mesh.face_cells;
+  kernel.sigma = sigma;
+  Kokkos::parallel_for("thixis::hho::native_flux", Kokkos::RangePolicy<>(0, owned), kernel);
 }
 
 void share(const mesh::Mesh& mesh, const ReferenceCell& reference, const method::MethodParams& params, const View<const LocalIndex*>& cells,

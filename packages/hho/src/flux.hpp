@@ -1,14 +1,13 @@
 #pragma once
+#include "faces.hpp"
 #include "reference_cell.hpp"
 #include "thixis/method/flux_density.hpp"
 #include "thixis/method/space.hpp"
 
 namespace thixis::hho {
 
-using method::View;
 using Table = Kokkos::View<const double**, Kokkos::LayoutRight>;
-using Moments = Kokkos::View<double**, Kokkos::LayoutRight>;
-using ElementEntries = Kokkos::View<const LocalIndex**, Kokkos::LayoutRight>;
+using method::ElementEntries;
 
 /// What the flux of HHO needs of the reference cell, q = p-1.
 struct FluxTables {

@@ -28,7 +28,7 @@ method::Structure layout(const mesh::Mesh& mesh, const method::SpaceOptions& opt
   }
   s.cell_entries = s.entries.size();
   s.global_cell_entries = n * mesh.global_cells;
-  s.interior = options.params.condensed() ? n : 0;
+  s.interior = options.params.condensation.value_or(true) ? n : 0;
 
   std::vector<LocalIndex> first_of_face(mesh.faces, -1);
   for (int k = 0; k < count; ++k)

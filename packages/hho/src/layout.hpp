@@ -1,5 +1,5 @@
 #pragma once
-#include "thixis/method/polynomial_space.hpp"
+#include "thixis/method/space.hpp"
 
 namespace thixis::hho {
 

@@ -7,10 +7,10 @@
 #include <limits>
 #include <numeric>
 
-#include "aside.hpp"
+#include "files/aside.hpp"
 #include "hash.hpp"
-#include "hdf5_file.hpp"
-#include "hdf5_reader.hpp"
+#include "hdf5/hdf5_file.hpp"
+#include "hdf5/hdf5_reader.hpp"
 #include "seal.hpp"
 #include "thixis/core/error.hpp"
 #include "thixis/core/file.hpp"

@@ -6,14 +6,14 @@
 #include <cmath>
 #include <filesystem>
 
-#include "aside.hpp"
+#include "files/aside.hpp"
+#include "files/text_file.hpp"
 #include "frames.hpp"
 #include "grid.hpp"
-#include "hdf5_file.hpp"
-#include "links.hpp"
+#include "hdf5/hdf5_file.hpp"
+#include "hdf5/links.hpp"
+#include "hdf5/slabs.hpp"
 #include "seal.hpp"
-#include "slabs.hpp"
-#include "text_file.hpp"
 #include "thixis/core/error.hpp"
 #include "xdmf.hpp"
 

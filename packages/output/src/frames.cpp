@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "hdf5_reader.hpp"
+#include "hdf5/hdf5_reader.hpp"
 #include "thixis/core/error.hpp"
 
 namespace thixis::output {

@@ -5,7 +5,7 @@
 #include <set>
 
 #include "hash.hpp"
-#include "hdf5_file.hpp"
+#include "hdf5/hdf5_file.hpp"
 #include "thixis/mesh/host.hpp"
 
 namespace thixis::output {

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "text_file.hpp"
+#include "files/text_file.hpp"
 
 namespace thixis::output {
 

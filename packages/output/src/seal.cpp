@@ -9,7 +9,7 @@
 #include <charconv>
 #include <vector>
 
-#include "text_file.hpp"
+#include "files/text_file.hpp"
 #include "thixis/core/error.hpp"
 
 namespace thixis::output {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "text_file.hpp"
+#include "files/text_file.hpp"
 #include "thixis/core/error.hpp"
 
 namespace thixis::output {
@@ -42,11 +42,10 @@ Json json(const std::optional<SummaryEstimate>& estimate) {
   return result;
 }
 
-Json json(const std::vector<SummaryBalance>& balances) {
-  std::vector<std::pair<std::string, double>> entries;
-  for (const auto& balance : balances) entries.emplace_back(balance.component, balance.worst_step);
-  for (const auto& balance : balances) entries.emplace_back(balance.component + "_total", balance.total);
-  return object(entries);
+Json json(const std::vector<SummaryEntry>& entries) {
+  Json result = Json::object();
+  for (const auto& entry : entries) result[entry.key] = entry.parts.empty() ? number(entry.value) : object(entry.parts);
+  return result;
 }
 
 Json json(const Summary& s) {
@@ -82,10 +81,6 @@ Json json(const Summary& s) {
                    {"between_nodes", number(s.kkt.between_nodes)},
                    {"equilibrium", number(s.kkt.equilibrium)}};
   result["active_points"] = s.active_points ? Json(*s.active_points) : Json(nullptr);
-  if (s.flow) {
-    result["mass_balance"] = json(s.flow->mass_balance);
-    result["front"] = number(s.flow->front);
-  }
   result["time"] = object({{"total", s.time.total},
                            {"mesh", s.time.mesh},
                            {"assembly", s.time.assembly},
@@ -96,7 +91,7 @@ Json json(const Summary& s) {
   result["memory_mb"] = number(s.memory_mb);
   result["versions"] = Json::object();
   for (const auto& [name, version] : s.versions) result["versions"][name] = version;
-  if (s.extra) append(result, *s.extra);
+  append(result, json(s.of_model));
   return result;
 }
 

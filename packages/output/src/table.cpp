@@ -8,7 +8,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "text_file.hpp"
+#include "files/text_file.hpp"
 #include "thixis/core/error.hpp"
 #include "thixis/core/file.hpp"
 

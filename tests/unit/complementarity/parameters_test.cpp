@@ -43,9 +43,7 @@ TEST(Parameters, every_name_of_the_newton_block_reaches_its_member) {
   const NewtonParams params =
       read(entry("c-function", "string", "fischer-burmeister") + entry("max iterations", "int", "7") + entry("start", "string", "nested") +
                entry("globalization", "string", "line search") + entry("ties", "string", "free") +
-               entry("tie tolerance", "double", "1e-12") + entry("scaling", "string", "none") + "<ParameterList name=\"initial\">" +
-               entry("u", "string", "x*y") + entry("u1", "string", "1 - r") + entry("u2", "double", "0.5") + entry("lambda", "int", "2") +
-               "</ParameterList>",
+               entry("tie tolerance", "double", "1e-12") + entry("scaling", "string", "none"),
            "")
           .newton;
   EXPECT_EQ(params.c_function, CFunction::fischer_burmeister);
@@ -55,10 +53,6 @@ TEST(Parameters, every_name_of_the_newton_block_reaches_its_member) {
   EXPECT_EQ(params.ties, Ties::free);
   EXPECT_EQ(params.tie_tolerance, 1e-12);
   EXPECT_EQ(params.scaling, Scaling::none);
-  EXPECT_EQ(params.initial.u->text, "x*y");
-  EXPECT_EQ(params.initial.u1->text, "1 - r");
-  EXPECT_EQ(params.initial.u2->text, "0.5");
-  EXPECT_EQ(params.initial.lambda->text, "2");
 }
 
 TEST(Parameters, every_name_of_the_stopping_block_reaches_its_member) {
@@ -83,8 +77,6 @@ TEST(Parameters, what_is_not_given_keeps_its_default) {
   const Params params = read("", "");
   EXPECT_EQ(params.newton.c_function, CFunction::min);
   EXPECT_EQ(params.newton.max_iterations, NewtonParams().max_iterations);
-  EXPECT_FALSE(params.newton.initial.u.has_value());
-  EXPECT_FALSE(params.newton.initial.u1.has_value());
   EXPECT_FALSE(params.stopping.estimate.has_value());
   EXPECT_FALSE(params.stopping.target.has_value());
 }

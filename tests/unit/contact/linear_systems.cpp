@@ -51,7 +51,7 @@ Frames uniform(int fields, int gaps, const std::vector<std::vector<double>>& B, 
 
 /// Normals that turn from node to node, ghosts included: by the place of the node, so that all ranks agree.
 Frames turning(const method::Space& space) {
-  const auto S = space.stiffness(*scene::constant(1));
+  const auto S = method::assemble(*fem::diffusion(space, scene::constant(1)));
   const auto places = space.coordinates();
   MultiVector at_columns(S->getColMap(), 2);
   if (S->getGraph()->getImporter().is_null()) at_columns.assign(*places);

@@ -5,6 +5,7 @@
 
 #include "thixis/algebra/tpetra.hpp"
 #include "thixis/contact/problem.hpp"
+#include "thixis/fem/forms.hpp"
 #include "thixis/fem/lagrange_space.hpp"
 #include "thixis/mesh/build.hpp"
 
@@ -32,7 +33,7 @@ class Square {
     const std::vector<scene::FieldPtr> nothing(levels_.finest().tags.size());
     std::vector<scene::FieldPtr> zero(levels_.finest().tags.size(), scene::constant(0));
     Vector F(space_->map());
-    space_->load(*scene::constant(1), *force, {nothing, zero}, 0, F);
+    method::load(*fem::diffusion(*space_, scene::constant(1)), *force, {nothing, zero}, 0, F);
     return F;
   }
 
@@ -59,21 +60,21 @@ inline BlockOperator operators(const method::Space& space, const std::vector<sce
   BlockOperator S;
   S.fields = static_cast<int>(tensions.size());
   auto cells = std::make_shared<CellForms>(CellForms{space.elements(), space.interior(), true, {}});
-  const auto add = [&](const scene::Field& tension, const Small& weight) {
-    S.matrix.push_back(space.stiffness(tension));
+  const auto add = [&](const scene::FieldPtr& tension, const Small& weight) {
+    S.matrix.push_back(method::assemble(*fem::diffusion(space, tension)));
     S.weight.push_back(weight);
-    cells->form.push_back(space.cell_form(tension));
+    cells->form.push_back(fem::diffusion(space, tension)->cells());
   };
   std::vector<double> constants;
   for (const auto& tension : tensions)
     if (tension->constant()) constants.push_back(*tension->constant());
   if (constants.size() == tensions.size()) {
-    add(*scene::constant(1), diagonal(constants));
+    add(scene::constant(1), diagonal(constants));
   } else {
     for (std::size_t i = 0; i < tensions.size(); ++i) {
       std::vector<double> one(tensions.size(), 0);
       one[i] = 1;
-      add(*tensions[i], diagonal(one));
+      add(tensions[i], diagonal(one));
     }
   }
   if (condensed && space.interior() > 0) S.cells = cells;

@@ -8,19 +8,19 @@
 
 #include "thixis/algebra/solver.hpp"
 #include "thixis/algebra/tpetra.hpp"
+#include "thixis/dg/params.hpp"
 #include "thixis/mesh/adapt.hpp"
 #include "thixis/mesh/build.hpp"
 #include "thixis/mesh/geometry.hpp"
 #include "thixis/mesh/host.hpp"
+#include "thixis/method/transfer.hpp"
 
 namespace thixis::dg {
 namespace {
 
 using algebra::Vector;
 using mesh::Generator;
-using method::BoundaryTreatment;
 using method::BoundaryValues;
-using method::Variant;
 using scene::FieldPtr;
 
 struct Setting {
@@ -67,12 +67,12 @@ double distance(const Vector& v, const Vector& w) {
   return d.normInf();
 }
 
-Vector solved(const method::Space& V, const scene::Field& tension, const Vector& rhs) {
+Vector solved(const method::Space& V, const scene::FieldPtr& tension, const Vector& rhs) {
   Vector u(V.map());
   algebra::LinearParams params;
   params.solver = algebra::SolverKind::direct;
   algebra::Solver solver(params);
-  solver.set_matrix(V.stiffness(tension), 1, V.coordinates());
+  solver.set_matrix(method::assemble(*diffusion(V, tension)), 1, V.coordinates());
   EXPECT_LT(solver.solve(rhs, u, {1e-13 * rhs.norm2(), 0, nullptr}).residual, 1e-10 * rhs.norm2());
   return u;
 }
@@ -102,10 +102,10 @@ class InteriorPenalty : public ::testing::TestWithParam<Setting> {
  protected:
   std::unique_ptr<method::Space> space(const mesh::Mesh& m, bool held = true) const {
     method::MethodParams params;
-    params.name = method::MethodName::dg;
+    params.name = "dg";
     params.degree = GetParam().degree;
-    params.variant = GetParam().variant;
-    params.boundary = GetParam().boundary;
+    params.own.get<Params>().variant = GetParam().variant;
+    params.own.get<Params>().boundary = GetParam().boundary;
     params.nodes = GetParam().nodes;
     return make_space(m, {std::vector<bool>(m.tags.size(), held), nullptr, params});
   }
@@ -126,12 +126,13 @@ TEST_P(InteriorPenalty, patch_test_with_constant_and_varying_tension) {
     const auto tension = varies ? scene::formula([](double x, double) { return 2 + x; }) : scene::constant(2);
     const auto force = scene::formula(
         [=, u = u](double x, double y) { return varies ? -(2 + x) * u.laplacian(x, y) - u.u_x(x, y) : -2 * u.laplacian(x, y); });
-    V->load(*tension, *force, boundary, 0, F);
-    V->forces(*tension, lift, held);
+    method::load(*diffusion(*V, tension), *force, boundary, 0, F);
+    method::apply(*diffusion(*V, tension), lift, held);
     F.update(-1, held, 1);
-    const Vector computed = solved(*V, *tension, F);
+    const Vector computed = solved(*V, tension, F);
     EXPECT_LT(distance(computed, exact), 1e-11);
-    EXPECT_LT(std::sqrt(V->energy_error(*tension, V->complete(computed, lift), u.gradient(), 0)), 1e-11);
+    EXPECT_LT(std::sqrt(method::energy_error(*diffusion(*V, tension), V->complete(computed, lift), {method::Known{u.gradient()}}, 0)),
+              1e-11);
   }
 }
 
@@ -139,8 +140,8 @@ TEST_P(InteriorPenalty, patch_test_with_a_part_of_the_boundary_under_traction) {
   if (GetParam().generator != Generator::criss_cross) return;
   method::MethodParams params;
   params.degree = GetParam().degree;
-  params.variant = GetParam().variant;
-  params.boundary = GetParam().boundary;
+  params.own.get<Params>().variant = GetParam().variant;
+  params.own.get<Params>().boundary = GetParam().boundary;
   const auto right = std::find(mesh.tags.begin(), mesh.tags.end(), "right") - mesh.tags.begin();
   std::vector<bool> dirichlet(mesh.tags.size(), true);
   dirichlet[right] = false;
@@ -150,10 +151,11 @@ TEST_P(InteriorPenalty, patch_test_with_a_part_of_the_boundary_under_traction) {
   boundary.neumann[right] = scene::formula([u = u](double x, double y) { return 2 * u.u_x(x, y); });
   Vector exact(V->map()), F(V->map()), held(V->map());
   V->interpolate(*u.value(), 0, exact);
-  V->load(*scene::constant(2), *scene::formula([u = u](double x, double y) { return -2 * u.laplacian(x, y); }), boundary, 0, F);
-  V->forces(*scene::constant(2), V->lift(boundary, 0), held);
+  method::load(*diffusion(*V, scene::constant(2)), *scene::formula([u = u](double x, double y) { return -2 * u.laplacian(x, y); }),
+               boundary, 0, F);
+  method::apply(*diffusion(*V, scene::constant(2)), V->lift(boundary, 0), held);
   F.update(-1, held, 1);
-  EXPECT_LT(distance(solved(*V, *scene::constant(2), F), exact), 1e-11);
+  EXPECT_LT(distance(solved(*V, scene::constant(2), F), exact), 1e-11);
 }
 
 /// The flux is continuous, the gradient is not: u = (x - 1/2)/mu, mu = 1 on the left half, 4 on the right one.
@@ -165,24 +167,24 @@ TEST_P(InteriorPenalty, patch_test_with_a_tension_that_jumps_across_faces) {
   const auto boundary = everywhere(mesh, broken);
   Vector exact(V->map()), F(V->map()), held(V->map());
   V->interpolate(*broken, 0, exact);
-  V->load(*tension, *scene::constant(0), boundary, 0, F);
-  V->forces(*tension, V->lift(boundary, 0), held);
+  method::load(*diffusion(*V, tension), *scene::constant(0), boundary, 0, F);
+  method::apply(*diffusion(*V, tension), V->lift(boundary, 0), held);
   F.update(-1, held, 1);
-  EXPECT_LT(distance(solved(*V, *tension, F), exact), 1e-11);
+  EXPECT_LT(distance(solved(*V, tension, F), exact), 1e-11);
 }
 
 TEST_P(InteriorPenalty, sipg_is_symmetric_and_nipg_is_not) {
   const auto V = space(mesh);
-  EXPECT_EQ(V->symmetric(), GetParam().variant == Variant::sipg);
+  EXPECT_EQ(diffusion(*V, scene::constant(1))->symmetric(), GetParam().variant == Variant::sipg);
   for (const auto& tension : {scene::constant(3), scene::formula([](double x, double y) { return 2 + x * y / 2; })}) {
-    const auto S = V->stiffness(*tension);
+    const auto S = method::assemble(*diffusion(*V, tension));
     Vector y(V->map()), z(V->map()), Sy(V->map()), Sz(V->map());
     y.randomize();
     z.randomize();
     S->apply(y, Sy);
     S->apply(z, Sz);
     const double skew = std::abs(z.dot(Sy) - y.dot(Sz)), size = std::abs(z.dot(Sy)) + std::abs(y.dot(Sz));
-    if (V->symmetric()) EXPECT_LT(skew, 1e-10 * size);
+    if (diffusion(*V, scene::constant(1))->symmetric()) EXPECT_LT(skew, 1e-10 * size);
     else EXPECT_GT(skew, 1e-8 * size);
   }
 }
@@ -192,13 +194,14 @@ TEST_P(InteriorPenalty, nipg_is_coercive_for_any_penalty) {
   if (GetParam().variant == Variant::sipg || GetParam().boundary == BoundaryTreatment::strong) return;
   method::MethodParams params;
   params.degree = GetParam().degree;
-  params.variant = Variant::nipg;
-  params.penalty = 1e-6;
+  params.own.get<Params>().variant = Variant::nipg;
+  params.own.get<Params>().penalty = 1e-6;
   const auto V = make_space(mesh, {std::vector<bool>(mesh.tags.size(), true), nullptr, params});
   Vector y(V->map()), Sy(V->map());
   y.randomize();
-  V->stiffness(*scene::constant(1))->apply(y, Sy);
-  const double energy = V->energy(*scene::constant(1), V->complete(y, V->lift(everywhere(mesh, scene::constant(0)), 0)));
+  method::assemble(*diffusion(*V, scene::constant(1)))->apply(y, Sy);
+  const double energy =
+      method::energy(*diffusion(*V, scene::constant(1)), V->complete(y, V->lift(everywhere(mesh, scene::constant(0)), 0)));
   EXPECT_GE(y.dot(Sy), (1 - 1e-10) * energy);
 }
 
@@ -207,8 +210,8 @@ TEST_P(InteriorPenalty, forces_cell_by_cell_are_the_action_of_the_matrix) {
   for (const auto& tension : {scene::constant(3), scene::formula([](double x, double y) { return 2 + x * y / 2; })}) {
     Vector w(V->map()), y(V->map()), Sw(V->map());
     w.randomize();
-    V->forces(*tension, V->complete(w, V->lift(everywhere(mesh, scene::constant(0)), 0)), y);
-    V->stiffness(*tension)->apply(w, Sw);
+    method::apply(*diffusion(*V, tension), V->complete(w, V->lift(everywhere(mesh, scene::constant(0)), 0)), y);
+    method::assemble(*diffusion(*V, tension))->apply(w, Sw);
     EXPECT_LT(distance(y, Sw), 1e-12 * Sw.normInf());
   }
 }
@@ -217,7 +220,7 @@ TEST_P(InteriorPenalty, without_dirichlet_data_constants_feel_no_force) {
   const auto V = space(mesh, false);
   Vector one(V->map()), y(V->map());
   one.putScalar(1);
-  V->stiffness(*scene::constant(1))->apply(one, y);
+  method::assemble(*diffusion(*V, scene::constant(1)))->apply(one, y);
   EXPECT_LT(y.normInf(), 1e-11);
 }
 
@@ -235,7 +238,7 @@ TEST_P(InteriorPenalty, prolongation_is_exact_for_polynomials_of_nested_meshes) 
   const auto coarse = space(levels.levels[0]), fine = space(mesh);
   Vector coarse_u(coarse->map()), values(fine->map()), exact(fine->map());
   coarse->interpolate(*u.value(), 0, coarse_u);
-  fine->prolongate(*coarse, coarse->complete(coarse_u, coarse->lift(everywhere(levels.levels[0], u.value()), 0)), values);
+  method::Transfer(*coarse, *fine).prolongate(coarse->complete(coarse_u, coarse->lift(everywhere(levels.levels[0], u.value()), 0)), values);
   fine->interpolate(*u.value(), 0, exact);
   EXPECT_LT(distance(values, exact), 1e-12);
 }
@@ -247,7 +250,7 @@ TEST_P(InteriorPenalty, prolongation_is_exact_on_adaptive_levels) {
     const auto coarse = space(levels.levels[j - 1]), fine = space(levels.levels[j]);
     Vector coarse_w(coarse->map()), values(fine->map()), exact(fine->map());
     coarse->interpolate(*w, 0, coarse_w);
-    fine->prolongate(*coarse, coarse->complete(coarse_w, coarse->lift(everywhere(levels.levels[j - 1], w), 0)), values);
+    method::Transfer(*coarse, *fine).prolongate(coarse->complete(coarse_w, coarse->lift(everywhere(levels.levels[j - 1], w), 0)), values);
     fine->interpolate(*w, 0, exact);
     EXPECT_LT(distance(values, exact), 1e-12);
   }
@@ -275,8 +278,8 @@ INSTANTIATE_TEST_SUITE_P(Dg, InteriorPenalty, ::testing::ValuesIn(settings()), s
 /// The whole matrix by the identities of its unknowns.
 using Entries = std::map<std::pair<GlobalIndex, GlobalIndex>, double>;
 
-Entries entries(const method::Space& V, const scene::Field& tension) {
-  const auto S = V.stiffness(tension);
+Entries entries(const method::Space& V, const scene::FieldPtr& tension) {
+  const auto S = method::assemble(*diffusion(V, tension));
   const auto ids = V.unknown_ids();
   Vector own(S->getRowMap()), ghosted(S->getColMap());
   for (std::size_t row = 0; row < ids.size(); ++row) own.replaceLocalValue(row, static_cast<double>(ids[row]));
@@ -306,7 +309,7 @@ TEST_P(InteriorPenalty, the_matrix_does_not_depend_on_the_ranks) {
   if (GetParam().nodes == method::Nodes::bernstein) return;
   const auto one_rank = hierarchy(GetParam().generator, 1, core::Comm(MPI_COMM_SELF));
   for (const auto& tension : {scene::constant(3), scene::formula([](double x, double y) { return x < 0.5 ? 2 + x * y : 1; })}) {
-    const Entries here = entries(*space(mesh), *tension), alone = entries(*space(one_rank.finest()), *tension);
+    const Entries here = entries(*space(mesh), tension), alone = entries(*space(one_rank.finest()), tension);
     ASSERT_EQ(here.size(), alone.size());
     double largest = 0, difference = 0;
     for (const auto& [place, value] : alone) {
@@ -372,10 +375,10 @@ class Penalty : public ::testing::TestWithParam<int> {
   bool definite(const mesh::Mesh& mesh, Variant variant, double penalty) const {
     method::MethodParams params;
     params.degree = GetParam();
-    params.variant = variant;
-    params.penalty = penalty;
+    params.own.get<Params>().variant = variant;
+    params.own.get<Params>().penalty = penalty;
     const auto V = make_space(mesh, {std::vector<bool>(mesh.tags.size(), true), nullptr, params});
-    return positive_definite(entries(*V, *scene::constant(1)));
+    return positive_definite(entries(*V, scene::constant(1)));
   }
 };
 
@@ -386,7 +389,7 @@ TEST_P(Penalty, that_the_shape_of_the_cells_asks_for_makes_sipg_positive_definit
       const double enough = sufficient_penalty(mesh, GetParam());
       EXPECT_TRUE(definite(mesh, Variant::sipg, 1.001 * enough));
       EXPECT_FALSE(definite(mesh, Variant::sipg, 0.1 * enough));
-      EXPECT_EQ(enough < method::MethodParams().penalty, !flat);
+      EXPECT_EQ(enough < Params().penalty, !flat);
     }
 }
 
@@ -407,13 +410,14 @@ TEST(Poisson, converges_with_order_p) {
         const mesh::Mesh& mesh = levels.levels[2 + k];
         method::MethodParams params;
         params.degree = p;
-        params.variant = variant;
+        params.own.get<Params>().variant = variant;
         const auto V = make_space(mesh, {std::vector<bool>(mesh.tags.size(), true), nullptr, params});
         const auto zero = everywhere(mesh, scene::constant(0));
         Vector F(V->map());
-        V->load(*scene::constant(1), *f, zero, 0, F);
+        method::load(*diffusion(*V, scene::constant(1)), *f, zero, 0, F);
         error[k] =
-            std::sqrt(V->energy_error(*scene::constant(1), V->complete(solved(*V, *scene::constant(1), F), V->lift(zero, 0)), exact, 0));
+            std::sqrt(method::energy_error(*diffusion(*V, scene::constant(1)),
+                                           V->complete(solved(*V, scene::constant(1), F), V->lift(zero, 0)), {method::Known{exact}}, 0));
       }
       EXPECT_NEAR(std::log2(error[0] / error[1]), p, 0.05) << "p = " << p;
     }

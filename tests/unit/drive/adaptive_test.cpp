@@ -1,11 +1,11 @@
 #include <gtest/gtest.h>
 
 #include "estimated_model.hpp"
+#include "judge/verdict_at_rest.hpp"
 #include "thixis/algebra/tpetra.hpp"
 #include "thixis/core/timer.hpp"
 #include "thixis/drive/stationary.hpp"
 #include "thixis/mesh/build.hpp"
-#include "verdict.hpp"
 
 namespace thixis::drive::test {
 namespace {

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "registry.hpp"
 #include "thixis/algebra/tpetra.hpp"
-#include "thixis/fem/lagrange_space.hpp"
+#include "thixis/fem/entry.hpp"
+#include "thixis/membranes/membranes.hpp"
 #include "thixis/mesh/host.hpp"
-#include "thixis/models/membranes.hpp"
 
 namespace thixis::drive::test {
 namespace {
@@ -17,7 +18,10 @@ class Estimated final : public models::Discretization {
       : model_(model), inner_(std::move(inner)), mesh_(mesh), effectivity_(effectivity) {}
 
   complementarity::Problem& problem() override { return inner_->problem(); }
+  const core::Comm& comm() const override { return mesh_.comm; }
+  GlobalIndex cells() const override { return mesh_.global_cells; }
   models::Sizes sizes() const override { return inner_->sizes(); }
+  int sweeps() const override { return inner_->sweeps(); }
   Teuchos::RCP<algebra::Vector> cold_start() const override {
     model_.nested.push_back(false);
     return inner_->cold_start();
@@ -26,8 +30,8 @@ class Estimated final : public models::Discretization {
     model_.nested.push_back(true);
     return inner_->nested_start(*dynamic_cast<const Estimated&>(coarse).inner_, X);
   }
-  std::vector<output::CheckpointBlock> save(const algebra::Vector& X) const override { return inner_->save(X); }
-  Teuchos::RCP<algebra::Vector> restore(const output::StoredCheckpoint& stored) const override { return inner_->restore(stored); }
+  models::State save(const algebra::Vector& X) const override { return inner_->save(X); }
+  Teuchos::RCP<algebra::Vector> restore(const output::StoredCheckpoint& stored) override { return inner_->restore(stored); }
   std::optional<double> energy_error(const algebra::Vector& X) const override { return inner_->energy_error(X); }
   double energy_norm(const algebra::Vector& X) const override { return inner_->energy_norm(X); }
 
@@ -57,7 +61,7 @@ class Estimated final : public models::Discretization {
   }
   complementarity::KktData kkt_data(const algebra::Vector& X) const override { return inner_->kkt_data(X); }
   models::Rounding rounding(const algebra::Vector& X) const override { return inner_->rounding(X); }
-  models::Contact contact(const algebra::Vector& X) const override { return inner_->contact(X); }
+  std::optional<models::Contact> contact(const algebra::Vector& X) const override { return inner_->contact(X); }
   std::vector<double> values_at(const std::vector<models::Probe>& probes, const algebra::Vector& X) const override {
     return inner_->values_at(probes, X);
   }
@@ -99,7 +103,7 @@ class Estimated final : public models::Discretization {
 }  // namespace
 
 EstimatedModel::EstimatedModel(const RunParams& params)
-    : inner_(models::membranes(scene::membrane_scene(params.scene), fem::make_lagrange_space, params.method, params.linear, {})) {}
+    : inner_(membranes::membranes(membranes::membrane_scene(params.scene), fem::entry(), params.method, params.linear, {})) {}
 
 std::unique_ptr<models::Discretization> EstimatedModel::discretize(const mesh::Hierarchy& hierarchy, int level) const {
   entered.push_back(level);
@@ -108,7 +112,7 @@ std::unique_ptr<models::Discretization> EstimatedModel::discretize(const mesh::H
 }
 
 RunParams smooth_contact() {
-  RunParams params;
+  RunParams params = catalogue().defaults();
   params.scene.case_name = "smooth contact";
   params.mesh.cells_per_side = 4;
   params.mesh.refinements = 1;

@@ -120,7 +120,7 @@ class Fall final : public models::Evolution {
     return models::StepErrors{params_.error_in_time * std::max(length_, params_.alike < 1e300 ? params_.alike : 0), 1};
   }
   void accept(const Vector& X) override { sum_ += X.norm1() * length_; }
-  std::optional<double> energy_error() const override { return sum_; }
+  std::optional<double> error_so_far() const override { return sum_; }
 
   complementarity::KktData kkt_data(const Vector& X) const override {
     auto K = Teuchos::rcp(new Vector(points_)), G = Teuchos::rcp(new Vector(points_));
@@ -137,7 +137,7 @@ class Fall final : public models::Evolution {
   std::vector<output::FieldData> fields(const Vector&, const complementarity::ActiveSet&, const std::vector<std::string>&) const override {
     return {};
   }
-  models::EvolutionState save(const Vector& X) const override {
+  models::State save(const Vector& X) const override {
     output::CheckpointBlock block{"x", {}, {}};
     const auto x = algebra::host_view(X);
     for (std::size_t i = 0; i < x.extent(0); ++i) {

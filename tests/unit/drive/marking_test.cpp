@@ -1,4 +1,4 @@
-#include "marking.hpp"
+#include "refine/marking.hpp"
 
 #include <gtest/gtest.h>
 

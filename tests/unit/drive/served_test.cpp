@@ -1,10 +1,12 @@
 #include <gtest/gtest.h>
 
 #include "estimated_model.hpp"
-#include "expectations.hpp"
+#include "judge/expectations.hpp"
+#include "registry.hpp"
 #include "thixis/algebra/tpetra.hpp"
 #include "thixis/core/error.hpp"
 #include "thixis/drive/run.hpp"
+#include "thixis/membranes/params.hpp"
 
 namespace thixis::drive::test {
 namespace {
@@ -19,7 +21,7 @@ std::string refusal(const RunParams& params) {
 }
 
 TEST(Served, a_target_and_nothing_else_is_enough) {
-  RunParams params;
+  RunParams params = catalogue().defaults();
   params.scene.case_name = "smooth contact";
   params.stopping.target = 1e-3;
   EXPECT_EQ(refusal(params), "");
@@ -44,8 +46,8 @@ TEST(Served, an_effectivity_needs_the_estimate_and_the_exact_solution) {
   params.stopping.estimate = true;
   EXPECT_EQ(refusal(params), "");
   params.scene.case_name.reset();
-  params.scene.data.emplace();
-  params.scene.data->g1.text = "1", params.scene.data->g2.text = "0";
+  membranes::of(params.scene).data.emplace();
+  membranes::of(params.scene).data->g1.text = "1", membranes::of(params.scene).data->g2.text = "0";
   EXPECT_NE(refusal(params).find("expect/effectivity between: without the exact solution"), std::string::npos) << refusal(params);
 }
 

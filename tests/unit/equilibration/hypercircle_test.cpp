@@ -7,8 +7,9 @@
 #include "patch_data.hpp"
 #include "thixis/algebra/solver.hpp"
 #include "thixis/algebra/tpetra.hpp"
+#include "thixis/fem/forms.hpp"
 #include "thixis/fem/lagrange_space.hpp"
-#include "thixis/method/polynomial_space.hpp"
+#include "thixis/method/form.hpp"
 #include "thixis/reference/quadrature.hpp"
 
 namespace thixis::equilibration {
@@ -39,7 +40,7 @@ class Hypercircle : public testing::TestWithParam<int> {
     params.degree = p;
     params.quadrature_order = 2 * p + 8;
     const auto space = fem::make_lagrange_space(mesh, {held, nullptr, params});
-    const auto& V = dynamic_cast<const method::PolynomialSpace&>(*space);
+    const auto& V = *space;
     const auto u = solution(V, held);
 
     const auto& cells = V.cells();
@@ -58,21 +59,22 @@ class Hypercircle : public testing::TestWithParam<int> {
       bound += std::pow(std::sqrt(metric(K).square(&sigma(K, 0), &sigma(K, N), N)) + oscillation[K], 2);
     }
     const method::Gradient gradient = {scene::formula(Problem::slope_x), scene::formula(Problem::slope_y)};
-    return {std::sqrt(V.energy_error(*scene::constant(1), u, gradient, 0)), std::sqrt(mesh.comm.sum(bound))};
+    return {std::sqrt(method::energy_error(*fem::diffusion(V, scene::constant(1)), u, {method::Known{gradient}}, 0)),
+            std::sqrt(mesh.comm.sum(bound))};
   }
 
-  method::Coefficients solution(const method::PolynomialSpace& V, const std::vector<bool>& held) const {
+  method::Coefficients solution(const method::Space& V, const std::vector<bool>& held) const {
     method::BoundaryValues boundary;
     for (const bool h : held) {
       boundary.dirichlet.push_back(h ? scene::formula(Problem::u) : nullptr);
       boundary.neumann.push_back(h ? nullptr : scene::formula([](double x, double y) { return y > 0.5 ? Problem::slope_y(x, y) : 0.0; }));
     }
     const auto tension = scene::constant(1);
-    const auto S = V.stiffness(*tension);
+    const auto S = method::assemble(*fem::diffusion(V, tension));
     algebra::Vector F(V.map()), x(V.map()), exerted(V.map());
-    V.load(*tension, *scene::formula(Problem::f), boundary, 0, F);
+    method::load(*fem::diffusion(V, tension), *scene::formula(Problem::f), boundary, 0, F);
     const auto lift = V.lift(boundary, 0);
-    V.forces(*tension, V.complete(x, lift), exerted);
+    method::apply(*fem::diffusion(V, tension), V.complete(x, lift), exerted);
     F.update(-1, exerted, 1);
     algebra::LinearParams params;
     params.solver = algebra::SolverKind::direct;
@@ -83,7 +85,7 @@ class Hypercircle : public testing::TestWithParam<int> {
   }
 
   /// w = -grad u_h, g_a = psi_a f + w·grad psi_a; returns (h_K/pi) |f - its projection| for each cell.
-  std::vector<double> fill(const method::PolynomialSpace& V, const method::Coefficients& u, const PatchData& data) const {
+  std::vector<double> fill(const method::Space& V, const method::Coefficients& u, const PatchData& data) const {
     const mesh::Mesh& mesh = V.mesh();
     const auto host = mesh::on_host(mesh);
     const auto metric = metrics(mesh, V.cells());

@@ -9,10 +9,13 @@
 #include "thixis/algebra/solver.hpp"
 #include "thixis/algebra/tpetra.hpp"
 #include "thixis/core/error.hpp"
+#include "thixis/fem/forms.hpp"
 #include "thixis/mesh/adapt.hpp"
 #include "thixis/mesh/build.hpp"
 #include "thixis/mesh/geometry.hpp"
 #include "thixis/mesh/host.hpp"
+#include "thixis/method/measures.hpp"
+#include "thixis/method/transfer.hpp"
 
 namespace thixis::fem {
 namespace {
@@ -133,12 +136,12 @@ class Lagrange : public ::testing::TestWithParam<Setting> {
   const Polynomial u{GetParam().degree};
 };
 
-Vector solved(const Space& V, const scene::Field& tension, Vector rhs) {
+Vector solved(const Space& V, const FieldPtr& tension, Vector rhs) {
   Vector u(V.map());
   algebra::LinearParams params;
   params.solver = algebra::SolverKind::direct;
   algebra::Solver solver(params);
-  solver.set_matrix(V.stiffness(tension), 1, V.coordinates());
+  solver.set_matrix(method::assemble(*diffusion(V, tension)), 1, V.coordinates());
   EXPECT_TRUE(solver.solve(rhs, u, {1e-13 * rhs.norm2(), 0, nullptr}).residual < 1e-10 * rhs.norm2());
   return u;
 }
@@ -151,19 +154,19 @@ TEST_P(Lagrange, has_the_mass_of_its_functions_in_the_cells) {
   Vector values(free->map()), moments(free->map()), expected(free->map()), product(free->map());
   free->interpolate(*affine, 0, values);
   const auto w = free->complete(values, method::Coefficients("nothing", free->lift(everywhere(mesh, scene::constant(0)), 0).extent(0)));
-  free->apply_mass(w, moments);
-  free->load(*scene::constant(1), *affine, everywhere(mesh, nullptr, scene::constant(0)), 0, expected);
+  method::apply(*method::mass(*free), w, moments);
+  method::load(*diffusion(*free, scene::constant(1)), *affine, everywhere(mesh, nullptr, scene::constant(0)), 0, expected);
   EXPECT_GT(expected.normInf(), 1e-3);
   EXPECT_LE(distance(moments, expected), 1e-12);
-  free->mass()->apply(values, product);
+  method::assemble(*method::mass(*free))->apply(values, product);
   EXPECT_LE(distance(moments, product), 1e-12);
-  EXPECT_NEAR(free->l2_error(w, *affine, 0), 0, 1e-20);
-  EXPECT_NEAR(free->l2_error(w, *scene::formula([](double x, double y) { return 4 + x - 2 * y; }), 0), 9 * area(mesh), 1e-9);
+  EXPECT_NEAR(method::l2_error(*free, w, affine, 0), 0, 1e-20);
+  EXPECT_NEAR(method::l2_error(*free, w, scene::formula([](double x, double y) { return 4 + x - 2 * y; }), 0), 9 * area(mesh), 1e-9);
 }
 
 TEST_P(Lagrange, stiffness_is_symmetric_and_its_rows_sum_to_zero_where_nothing_is_held) {
   const auto V = space(mesh, false);
-  const auto S = V->stiffness(*scene::formula([](double x, double y) { return 2 + x * x + y; }));
+  const auto S = method::assemble(*diffusion(*V, scene::formula([](double x, double y) { return 2 + x * x + y; })));
   Vector one(V->map()), y(V->map()), z(V->map()), Sy(V->map()), Sz(V->map());
   one.putScalar(1);  // both families sum to 1
   S->apply(one, y);
@@ -182,22 +185,23 @@ TEST_P(Lagrange, patch_test) {
   const auto lift = V->lift(boundary, 0);
   Vector F(V->map()), held(V->map());
   const auto tension = scene::constant(3);
-  V->load(*tension, *scene::formula([this](double x, double y) {
+  method::load(*diffusion(*V, tension), *scene::formula([this](double x, double y) {
     return 3 * (u.p < 2 ? 0 : -1.25 * u.p * (u.p - 1) * std::pow(u.inner(x, y), u.p - 2));
   }),
-          boundary, 0, F);
-  V->forces(*tension, lift, held);
+               boundary, 0, F);
+  method::apply(*diffusion(*V, tension), lift, held);
   F.update(-1, held, 1);
-  const Vector computed = solved(*V, *tension, F);
+  const Vector computed = solved(*V, tension, F);
   EXPECT_LT(distance(computed, interpolated(*V, u.value())), 1e-11);
-  EXPECT_LT(std::sqrt(V->energy_error(*tension, V->complete(computed, lift), u.gradient(), 0)), 1e-11);
+  EXPECT_LT(std::sqrt(method::energy_error(*diffusion(*V, tension), V->complete(computed, lift), {method::Known{u.gradient()}}, 0)), 1e-11);
 }
 
 TEST_P(Lagrange, the_energy_error_of_zero_is_the_energy_of_the_exact_solution) {
   const auto V = space(mesh, false);
   const auto nothing_held = V->lift(everywhere(mesh, nullptr), 0);
-  const double error = V->energy_error(*scene::constant(2), V->complete(Vector(V->map()), nothing_held), u.gradient(), 0);
-  const double energy = V->energy(*scene::constant(2), V->complete(interpolated(*V, u.value()), nothing_held));
+  const double error = method::energy_error(*diffusion(*V, scene::constant(2)), V->complete(Vector(V->map()), nothing_held),
+                                            {method::Known{u.gradient()}}, 0);
+  const double energy = method::energy(*diffusion(*V, scene::constant(2)), V->complete(interpolated(*V, u.value()), nothing_held));
   EXPECT_GT(energy, 0.1 * area(mesh));
   EXPECT_NEAR(error, energy, 1e-11 * energy);
 }
@@ -206,8 +210,8 @@ TEST_P(Lagrange, loads_of_a_constant_are_the_integrals_of_the_basis_in_cut_cells
   const auto cut = scene::formula([](double x, double y) { return std::hypot(x - 0.4, y - 0.7) - 0.31; });
   const auto V = space(mesh, false), V_cut = space(mesh, false, cut);
   Vector F(V->map()), F_cut(V->map());
-  V->load(*scene::constant(1), *scene::constant(3), everywhere(mesh, nullptr), 0, F);
-  V_cut->load(*scene::constant(1), *scene::constant(3), everywhere(mesh, nullptr), 0, F_cut);
+  method::load(*diffusion(*V, scene::constant(1)), *scene::constant(3), everywhere(mesh, nullptr), 0, F);
+  method::load(*diffusion(*V_cut, scene::constant(1)), *scene::constant(3), everywhere(mesh, nullptr), 0, F_cut);
   EXPECT_NEAR(sum(F), 3 * area(mesh), 1e-12 * area(mesh));
   EXPECT_LT(distance(F, F_cut), 1e-13);
 }
@@ -216,7 +220,7 @@ TEST_P(Lagrange, no_gauss_lobatto_or_bernstein_function_has_a_negative_mean) {
   if (GetParam().nodes == Nodes::equispaced) return;
   const auto V = space(mesh, false);
   Vector F(V->map());
-  V->load(*scene::constant(1), *scene::constant(1), everywhere(mesh, nullptr), 0, F);
+  method::load(*diffusion(*V, scene::constant(1)), *scene::constant(1), everywhere(mesh, nullptr), 0, F);
   const auto values = algebra::host_view(std::as_const(F));
   for (std::size_t l = 0; l < values.extent(0); ++l) EXPECT_GE(values(l), -1e-16);
 }
@@ -241,10 +245,10 @@ TEST_P(Lagrange, forces_cell_by_cell_are_the_action_of_the_matrix) {
     Vector w(V->map()), y(V->map()), Sw(V->map());
     w.randomize();
     const auto all = V->complete(w, V->lift(everywhere(mesh, held ? scene::constant(0) : nullptr), 0));
-    V->forces(*tension, all, y);
-    V->stiffness(*tension)->apply(w, Sw);
+    method::apply(*diffusion(*V, tension), all, y);
+    method::assemble(*diffusion(*V, tension))->apply(w, Sw);
     EXPECT_LT(distance(y, Sw), 1e-12 * Sw.normInf());
-    EXPECT_NEAR(V->energy(*tension, all), w.dot(Sw), 1e-11 * w.dot(Sw));
+    EXPECT_NEAR(method::energy(*diffusion(*V, tension), all), w.dot(Sw), 1e-11 * w.dot(Sw));
   }
 }
 
@@ -290,7 +294,7 @@ TEST_P(Lagrange, prolongation_is_exact) {
     const FieldPtr w = nested() ? u.value() : scene::constant(2);
     const auto coarse_w = coarse->complete(interpolated(*coarse, w), coarse->lift(everywhere(levels.levels[0], held ? w : nullptr), 0));
     Vector values(fine->map());
-    fine->prolongate(*coarse, coarse_w, values);
+    method::Transfer(*coarse, *fine).prolongate(coarse_w, values);
     EXPECT_LT(distance(values, interpolated(*fine, w)), 1e-12);
   }
 }
@@ -303,11 +307,11 @@ TEST_P(Lagrange, prolongation_is_exact_on_adaptive_levels) {
       const auto coarse = space(levels.levels[j - 1], held), fine = space(levels.levels[j], held);
       const auto lift = coarse->lift(everywhere(levels.levels[j - 1], held ? w : nullptr), 0);
       Vector values(fine->map()), X3(coarse->points()), finer(fine->points()), expected(fine->points());
-      fine->prolongate(*coarse, coarse->complete(interpolated(*coarse, w), lift), values);
+      method::Transfer(*coarse, *fine).prolongate(coarse->complete(interpolated(*coarse, w), lift), values);
       EXPECT_LT(distance(values, interpolated(*fine, w)), 1e-12);
       if (held) continue;
       coarse->interpolate_multiplier(*w, 0, X3);
-      fine->prolongate_multiplier(*coarse, X3, finer);
+      method::Transfer(*coarse, *fine).multiplier(X3, finer);
       fine->interpolate_multiplier(*w, 0, expected);
       if (nested() || u.p == 1) {
         EXPECT_LT(distance(finer, expected), 1e-11);
@@ -321,10 +325,10 @@ TEST_P(Lagrange, patch_test_on_an_adaptive_mesh) {
   const auto V = space(finest, true);
   const auto boundary = everywhere(finest, u.value());
   Vector F(V->map()), held(V->map());
-  V->load(*scene::constant(1), *u.minus_laplacian(), boundary, 0, F);
-  V->forces(*scene::constant(1), V->lift(boundary, 0), held);
+  method::load(*diffusion(*V, scene::constant(1)), *u.minus_laplacian(), boundary, 0, F);
+  method::apply(*diffusion(*V, scene::constant(1)), V->lift(boundary, 0), held);
   F.update(-1, held, 1);
-  EXPECT_LT(distance(solved(*V, *scene::constant(1), F), interpolated(*V, u.value())), 1e-10);
+  EXPECT_LT(distance(solved(*V, scene::constant(1), F), interpolated(*V, u.value())), 1e-10);
 }
 
 TEST_P(Lagrange, a_multiplier_is_known_from_its_moments_and_goes_to_the_finer_mesh) {
@@ -334,7 +338,7 @@ TEST_P(Lagrange, a_multiplier_is_known_from_its_moments_and_goes_to_the_finer_me
   coarse->interpolate_multiplier(*lambda, 0, X3);
   coarse->restrict_to_unknowns(coarse->multiplier(X3), back);
   EXPECT_LT(distance(back, interpolated(*coarse, lambda)), 1e-10);
-  fine->prolongate_multiplier(*coarse, X3, finer);
+  method::Transfer(*coarse, *fine).multiplier(X3, finer);
   fine->interpolate_multiplier(*lambda, 0, expected);
   if (nested() || u.p == 1) {
     EXPECT_LT(distance(finer, expected), 1e-11);
@@ -346,9 +350,9 @@ TEST_P(Lagrange, penetration_is_the_depth_below_the_obstacle_also_between_the_no
   const auto V = space(mesh, false);
   const auto w = scene::formula([](double x, double y) { return std::pow(x + 0.7 * y - 0.613, 2) - 0.01; });  // -0.01 along a line
   const auto all = V->complete(interpolated(*V, w), V->lift(everywhere(mesh, nullptr), 0));
-  EXPECT_NEAR(V->penetration(all, nullptr, 0), 0.01, 1e-4);
-  EXPECT_NEAR(V->penetration(all, scene::constant(0.005).get(), 0), 0.015, 1e-4);
-  EXPECT_EQ(V->penetration(all, scene::constant(-0.02).get(), 0), 0);
+  EXPECT_NEAR(method::penetration(*V, all, nullptr, 0), 0.01, 1e-4);
+  EXPECT_NEAR(method::penetration(*V, all, scene::constant(0.005).get(), 0), 0.015, 1e-4);
+  EXPECT_EQ(method::penetration(*V, all, scene::constant(-0.02).get(), 0), 0);
 }
 
 std::vector<Setting> settings() {
@@ -389,9 +393,9 @@ TEST(Poisson, converges_with_order_p) {
       const mesh::Mesh& mesh = levels.levels[2 + k];
       const auto V = space_of_degree(mesh, p, true);
       Vector F(V->map());
-      V->load(*scene::constant(1), *f, everywhere(mesh, scene::constant(0)), 0, F);
-      const auto u = V->complete(solved(*V, *scene::constant(1), F), V->lift(everywhere(mesh, scene::constant(0)), 0));
-      error[k] = std::sqrt(V->energy_error(*scene::constant(1), u, exact, 0));
+      method::load(*diffusion(*V, scene::constant(1)), *f, everywhere(mesh, scene::constant(0)), 0, F);
+      const auto u = V->complete(solved(*V, scene::constant(1), F), V->lift(everywhere(mesh, scene::constant(0)), 0));
+      error[k] = std::sqrt(method::energy_error(*diffusion(*V, scene::constant(1)), u, {method::Known{exact}}, 0));
     }
     EXPECT_NEAR(std::log2(error[0] / error[1]), p, 0.05) << "p = " << p;
   }
@@ -406,7 +410,7 @@ TEST(Traction, sums_to_force_and_moment_of_a_linear_one) {
     const auto right = std::find(mesh.tags.begin(), mesh.tags.end(), "right") - mesh.tags.begin();
     boundary.neumann[right] = scene::formula([](double, double y) { return 1 + 2 * y; });
     Vector F(V->map());
-    V->load(*scene::constant(1), *scene::constant(0), boundary, 0, F);
+    method::load(*diffusion(*V, scene::constant(1)), *scene::constant(0), boundary, 0, F);
     EXPECT_NEAR(sum(F), 1.5 + (4 - 0.25), 1e-13);  // the integral of 1 + 2 y
     const Vector y = interpolated(*V, scene::formula([](double, double py) { return py; }));
     EXPECT_NEAR(F.dot(y), (4 - 0.25) / 2 + 2 * (8 - 0.125) / 3, 1e-12);
@@ -434,7 +438,7 @@ TEST(Lift, at_a_vertex_between_two_held_parts_is_the_value_of_the_part_listed_fi
 TEST(Tension, that_is_not_positive_in_some_cell_is_refused_on_all_ranks) {
   const auto levels = hierarchy(Generator::criss_cross);
   const auto V = space_of_degree(levels.finest(), 2, true);
-  EXPECT_THROW(V->stiffness(*scene::formula([](double x, double y) { return x + y - 0.1; })), core::InputError);
+  EXPECT_THROW(method::assemble(*diffusion(*V, scene::formula([](double x, double y) { return x + y - 0.1; }))), core::InputError);
 }
 
 }  // namespace thixis::fem

@@ -6,9 +6,10 @@
 
 #include "problems.hpp"
 #include "reference_cell.hpp"
+#include "thixis/hho/params.hpp"
 #include "thixis/mesh/geometry.hpp"
 #include "thixis/mesh/host.hpp"
-#include "thixis/method/polynomial_space.hpp"
+#include "thixis/method/form.hpp"
 #include "thixis/reference/modal.hpp"
 #include "thixis/reference/quadrature.hpp"
 
@@ -137,12 +138,12 @@ Dense by_definition(const Cell& K, Mu mu, double kappa, bool cell_length) {
 class CellForm : public ::testing::TestWithParam<Setting> {
  protected:
   template <class Mu>
-  void expect_definition(const scene::Field& tension, Mu mu, method::StabilizationLength length) {
+  void expect_definition(const scene::FieldPtr& tension, Mu mu, StabilizationLength length) {
     auto of_method = params(GetParam().degree, GetParam().nodes);
-    of_method.stabilization = 2.5;
-    of_method.stabilization_length = length;
+    of_method.own.get<Params>().stabilization = 2.5;
+    of_method.own.get<Params>().stabilization_length = length;
     const auto V = space(mesh, of_method, false);
-    const auto form = V->cell_form(tension);
+    const auto form = diffusion(*V, tension)->cells();
     const reference::CellBasis basis(GetParam().degree, method::family(GetParam().nodes));
     const auto cells = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), method::patch_cells(mesh));
     const auto host = mesh::on_host(mesh);
@@ -158,7 +159,7 @@ class CellForm : public ::testing::TestWithParam<Setting> {
         const LocalIndex F = host.cell_faces(K, f);
         cell.face_ends[f] = {place(host.face_vertices(F, 0)), place(host.face_vertices(F, 1))};
       }
-      const Dense expected = by_definition(cell, mu, of_method.stabilization, length == method::StabilizationLength::cell);
+      const Dense expected = by_definition(cell, mu, of_method.own.get<Params>().stabilization, length == StabilizationLength::cell);
       double largest = 0;
       for (int i = 0; i < width; ++i) largest = std::max(largest, expected[i][i]);
       for (int i = 0; i < width; ++i)
@@ -173,20 +174,19 @@ class CellForm : public ::testing::TestWithParam<Setting> {
 }  // namespace
 
 TEST_P(CellForm, is_its_definition_for_a_constant_tension) {
-  for (const auto length : {method::StabilizationLength::face, method::StabilizationLength::cell})
+  for (const auto length : {StabilizationLength::face, StabilizationLength::cell})
     expect_definition(
-        *scene::constant(3), [](double, double) { return 3.0; }, length);
+        scene::constant(3), [](double, double) { return 3.0; }, length);
 }
 
 TEST_P(CellForm, is_its_definition_for_a_tension_that_varies) {
   const auto mu = [](double x, double y) { return 2 + x * y / 4; };
-  for (const auto length : {method::StabilizationLength::face, method::StabilizationLength::cell})
-    expect_definition(*scene::formula(mu), mu, length);
+  for (const auto length : {StabilizationLength::face, StabilizationLength::cell}) expect_definition(scene::formula(mu), mu, length);
 }
 
 TEST_P(CellForm, is_the_same_for_a_constant_that_poses_as_a_function) {
   expect_definition(
-      *scene::formula([](double, double) { return 3.0; }), [](double, double) { return 3.0; }, method::StabilizationLength::face);
+      scene::formula([](double, double) { return 3.0; }), [](double, double) { return 3.0; }, StabilizationLength::face);
 }
 
 INSTANTIATE_TEST_SUITE_P(Hho, CellForm, ::testing::ValuesIn(settings()), [](const auto& setting) { return name(setting.param); });

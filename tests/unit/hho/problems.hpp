@@ -44,7 +44,7 @@ inline std::string name(const Setting& setting) {
 
 inline method::MethodParams params(int degree, method::Nodes nodes = method::Nodes::gauss_lobatto) {
   method::MethodParams params;
-  params.name = method::MethodName::hho;
+  params.name = "hho";
   params.degree = degree;
   params.nodes = nodes;
   return params;

@@ -9,10 +9,12 @@
 #include "problems.hpp"
 #include "thixis/algebra/solver.hpp"
 #include "thixis/algebra/tpetra.hpp"
+#include "thixis/contact/condensation.hpp"
+#include "thixis/hho/params.hpp"
 #include "thixis/mesh/adapt.hpp"
 #include "thixis/mesh/geometry.hpp"
 #include "thixis/mesh/host.hpp"
-#include "thixis/method/condensation.hpp"
+#include "thixis/method/transfer.hpp"
 
 namespace thixis::hho {
 namespace {
@@ -59,15 +61,15 @@ struct Poisson {
 
   Vector right_side() const {
     Vector F(V.map()), held(V.map());
-    V.load(*tension, *force, boundary, 0, F);
-    V.forces(*tension, lift, held);
+    method::load(*diffusion(V, tension), *force, boundary, 0, F);
+    method::apply(*diffusion(V, tension), lift, held);
     F.update(-1, held, 1);
     return F;
   }
-  Vector solution() const { return solved(V.stiffness(*tension), right_side()); }
+  Vector solution() const { return solved(method::assemble(*diffusion(V, tension)), right_side()); }
   Vector condensed_solution() const {
-    const auto form = V.cell_form(*tension);
-    method::Condensation condensation(V.map(), V.graph()->getColMap(), V.elements(), V.interior(), method::LocalForm::positive_definite);
+    const auto form = diffusion(V, tension)->cells();
+    contact::Condensation condensation(V.map(), V.graph()->getColMap(), V.elements(), V.interior(), contact::LocalForm::positive_definite);
     condensation.set_matrix([&](LocalIndex first, const method::LocalMatrices& A) { form->matrices(first, A); });
     const Vector F = right_side();
     Vector reduced(condensation.rows()), u(V.map());
@@ -76,7 +78,7 @@ struct Poisson {
     return u;
   }
   double error(const Vector& u, const method::Gradient& exact) const {
-    return std::sqrt(V.energy_error(*tension, V.complete(u, lift), exact, 0));
+    return std::sqrt(method::energy_error(*diffusion(V, tension), V.complete(u, lift), {method::Known{exact}}, 0));
   }
 };
 
@@ -117,7 +119,7 @@ class Hybrid : public ::testing::TestWithParam<Setting> {
 TEST_P(Hybrid, stiffness_is_symmetric_and_constants_are_its_kernel_where_nothing_is_held) {
   const auto V = space(mesh, method(), false);
   for (const FieldPtr& tension : {scene::constant(2), scene::formula([](double x, double y) { return 2 + x * x + y; })}) {
-    const auto S = V->stiffness(*tension);
+    const auto S = method::assemble(*diffusion(*V, tension));
     Vector y(V->map()), z(V->map()), Sy(V->map()), Sz(V->map());
     S->apply(interpolated(*V, scene::constant(1)), y);
     EXPECT_LT(y.normInf(), 1e-11);
@@ -131,16 +133,17 @@ TEST_P(Hybrid, stiffness_is_symmetric_and_constants_are_its_kernel_where_nothing
 }
 
 TEST_P(Hybrid, patch_test) {
-  for (const auto length : {method::StabilizationLength::face, method::StabilizationLength::cell}) {
+  for (const auto length : {StabilizationLength::face, StabilizationLength::cell}) {
     auto params = method();
-    params.stabilization_length = length;
+    params.own.get<Params>().stabilization_length = length;
     const auto V = space(mesh, params, true);
     const Poisson poisson{*V, scene::constant(3), scene::formula([this](double x, double y) { return 3 * u.minus_laplacian(x, y); }),
                           everywhere(mesh, u.value())};
     const Vector computed = poisson.solution();
     const Vector exact = interpolated(*V, u.value());
     EXPECT_LT(distance(computed, exact), 1e-11 * exact.normInf());
-    EXPECT_LT(poisson.error(computed, u.gradient()), 1e-11 * std::sqrt(V->energy(*poisson.tension, V->complete(exact, poisson.lift))));
+    EXPECT_LT(poisson.error(computed, u.gradient()),
+              1e-11 * std::sqrt(method::energy(*diffusion(*V, poisson.tension), V->complete(exact, poisson.lift))));
   }
 }
 
@@ -160,8 +163,8 @@ TEST_P(Hybrid, forces_cell_by_cell_are_the_action_of_the_matrix) {
     const auto V = space(mesh, method(), held);
     Vector w(V->map()), y(V->map()), Sw(V->map());
     w.randomize();
-    V->forces(*tension, V->complete(w, V->lift(everywhere(mesh, held ? scene::constant(0) : nullptr), 0)), y);
-    V->stiffness(*tension)->apply(w, Sw);
+    method::apply(*diffusion(*V, tension), V->complete(w, V->lift(everywhere(mesh, held ? scene::constant(0) : nullptr), 0)), y);
+    method::assemble(*diffusion(*V, tension))->apply(w, Sw);
     EXPECT_LT(distance(y, Sw), 1e-12 * Sw.normInf());
   }
 }
@@ -171,8 +174,9 @@ TEST_P(Hybrid, lift_is_the_part_of_the_interpolant_that_is_held) {
   const auto V = space(mesh, method(), true), free = space(mesh, method(), false);
   const auto tension = scene::constant(1);
   Vector y(V->map()), y_free(free->map());
-  V->forces(*tension, V->complete(interpolated(*V, u.value()), V->lift(everywhere(mesh, u.value()), 0)), y);
-  free->forces(*tension, free->complete(interpolated(*free, u.value()), free->lift(everywhere(mesh, nullptr), 0)), y_free);
+  method::apply(*diffusion(*V, tension), V->complete(interpolated(*V, u.value()), V->lift(everywhere(mesh, u.value()), 0)), y);
+  method::apply(*diffusion(*free, tension), free->complete(interpolated(*free, u.value()), free->lift(everywhere(mesh, nullptr), 0)),
+                y_free);
   const auto ids = V->unknown_ids(), free_ids = free->unknown_ids();
   const auto held = algebra::host_view(std::as_const(y)), all = algebra::host_view(std::as_const(y_free));
   std::size_t k = 0;
@@ -213,7 +217,7 @@ TEST_P(Hybrid, prolongation_is_exact) {
     const FieldPtr w = nested() ? u.value() : scene::constant(2);
     const auto coarse_w = coarse->complete(interpolated(*coarse, w), coarse->lift(everywhere(levels.levels[0], held ? w : nullptr), 0));
     Vector values(fine->map());
-    fine->prolongate(*coarse, coarse_w, values);
+    method::Transfer(*coarse, *fine).prolongate(coarse_w, values);
     EXPECT_LT(distance(values, interpolated(*fine, w)), 1e-12);
   }
 }
@@ -224,10 +228,11 @@ TEST_P(Hybrid, prolongation_is_exact_on_adaptive_levels) {
   for (std::size_t j = 1; j < levels.levels.size(); ++j) {
     const auto coarse = space(levels.levels[j - 1], method(), true), fine = space(levels.levels[j], method(), true);
     Vector values(fine->map()), X3(coarse->points()), finer(fine->points()), expected(fine->points());
-    fine->prolongate(*coarse, coarse->complete(interpolated(*coarse, w), coarse->lift(everywhere(levels.levels[j - 1], w), 0)), values);
+    method::Transfer(*coarse, *fine)
+        .prolongate(coarse->complete(interpolated(*coarse, w), coarse->lift(everywhere(levels.levels[j - 1], w), 0)), values);
     EXPECT_LT(distance(values, interpolated(*fine, w)), 1e-12);
     coarse->interpolate_multiplier(*w, 0, X3);
-    fine->prolongate_multiplier(*coarse, X3, finer);
+    method::Transfer(*coarse, *fine).multiplier(X3, finer);
     fine->interpolate_multiplier(*w, 0, expected);
     if (nested()) {
       EXPECT_LT(distance(finer, expected), 1e-11);
@@ -249,7 +254,7 @@ TEST_P(Hybrid, a_multiplier_is_known_from_its_moments_and_goes_to_the_finer_mesh
   const FieldPtr lambda = nested() ? u.value() : scene::constant(2);
   Vector X3(coarse->points()), finer(fine->points()), expected(fine->points());
   coarse->interpolate_multiplier(*lambda, 0, X3);
-  fine->prolongate_multiplier(*coarse, X3, finer);
+  method::Transfer(*coarse, *fine).multiplier(X3, finer);
   fine->interpolate_multiplier(*lambda, 0, expected);
   if (nested()) {
     EXPECT_LT(distance(finer, expected), 1e-11);
@@ -271,7 +276,7 @@ TEST_P(Hybrid, energy_does_not_depend_on_the_ranks) {
     const mesh::Mesh& on = alone ? alone_levels.finest() : mesh;
     const auto V = space(on, method(), true);
     const Poisson poisson{*V, tension, scene::formula([](double x, double y) { return std::sin(3 * x) + y; }), everywhere(on, u.value())};
-    energy[alone ? 1 : 0] = V->energy(*tension, V->complete(poisson.condensed_solution(), poisson.lift));
+    energy[alone ? 1 : 0] = method::energy(*diffusion(*V, tension), V->complete(poisson.condensed_solution(), poisson.lift));
   }
   EXPECT_NEAR(energy[0], energy[1], 1e-11 * energy[1]);
 }
@@ -290,7 +295,8 @@ TEST(Unknowns, are_those_of_all_cells_and_of_the_faces_inside) {
       const GlobalIndex points = static_cast<GlobalIndex>(V->points()->getGlobalNumElements());
       EXPECT_EQ(2 * (all - points), published[p - 1][level]);
       EXPECT_EQ(2 * all + points, with_cells[p - 1][level]);
-      const method::Condensation condensation(V->map(), V->graph()->getColMap(), V->elements(), V->interior(), method::LocalForm::general);
+      const contact::Condensation condensation(V->map(), V->graph()->getColMap(), V->elements(), V->interior(),
+                                               contact::LocalForm::general);
       EXPECT_EQ(static_cast<GlobalIndex>(condensation.rows()->getGlobalNumElements()), all - points);
     }
 }
@@ -301,13 +307,13 @@ TEST(Convergence, of_the_cells_polynomials_has_order_p) {
                                   scene::formula([pi](double x, double y) { return pi * std::sin(pi * x) * std::cos(pi * y); })};
   const auto f = scene::formula([pi](double x, double y) { return 2 * pi * pi * std::sin(pi * x) * std::sin(pi * y); });
   const auto levels = hierarchy(Generator::criss_cross, 3);
-  for (const auto length : {method::StabilizationLength::face, method::StabilizationLength::cell})
+  for (const auto length : {StabilizationLength::face, StabilizationLength::cell})
     for (int p = 1; p <= 4; ++p) {
       double error[2];
       for (int k = 0; k < 2; ++k) {
         const mesh::Mesh& mesh = levels.levels[2 + k];
         auto of_method = params(p);
-        of_method.stabilization_length = length;
+        of_method.own.get<Params>().stabilization_length = length;
         const auto V = space(mesh, of_method, true);
         const Poisson poisson{*V, scene::constant(1), f, everywhere(mesh, scene::constant(0))};
         error[k] = poisson.error(poisson.condensed_solution(), exact);

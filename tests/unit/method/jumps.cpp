@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "thixis/mesh/build.hpp"
-#include "thixis/scene/heights.hpp"
+#include "thixis/scene/shifted.hpp"
 
 namespace thixis::method {
 namespace {

@@ -7,28 +7,31 @@
 #include "thixis/algebra/solver.hpp"
 #include "thixis/algebra/tpetra.hpp"
 #include "thixis/mesh/geometry.hpp"
-#include "thixis/method/polynomial_space.hpp"
+#include "thixis/method/form.hpp"
 #include "thixis/reference/modal.hpp"
 #include "thixis/reference/quadrature.hpp"
 
-/// What PolynomialSpace::native_flux promises, looked at from outside.
+/// What Form::native_flux promises, looked at from outside.
 namespace thixis::method {
 
 /// A field of one membrane: any coefficients, data and multiplier.
 struct FluxProblem {
-  const PolynomialSpace& V;
-  const PolynomialSpace& free;  ///< the same space on the same mesh, nothing held
+  const Space& V;
+  const Space& free;  ///< the same space on the same mesh, nothing held
+  FormPtr (*diffusion)(const Space&, const scene::FieldPtr&);
   scene::FieldPtr tension, force;
   BoundaryValues boundary;
   double sign = 1;  ///< -(-1)^alpha
 
+  FormPtr form() const { return diffusion(V, tension); }
+  int degree() const { return V.flux_degree(); }
   BoundaryValues none() const {
     return {std::vector<scene::FieldPtr>(boundary.dirichlet.size()), std::vector<scene::FieldPtr>(boundary.dirichlet.size())};
   }
 };
 
 /// Numbers in [-1, 1] that depend on the unknown and not on the ranks.
-inline algebra::Vector arbitrary(const PolynomialSpace& V, int seed) {
+inline algebra::Vector arbitrary(const Space& V, int seed) {
   algebra::Vector v(V.map());
   const auto ids = V.unknown_ids();
   const auto values = algebra::host_overwrite(v);
@@ -37,7 +40,7 @@ inline algebra::Vector arbitrary(const PolynomialSpace& V, int seed) {
 }
 
 /// X3 as a vector on all unknowns.
-inline algebra::Vector extended(const PolynomialSpace& V, const algebra::Vector& X3) {
+inline algebra::Vector extended(const Space& V, const algebra::Vector& X3) {
   algebra::Vector v(V.map());
   const auto out = algebra::host_view(v);
   const auto in = algebra::host_view(X3);
@@ -45,7 +48,7 @@ inline algebra::Vector extended(const PolynomialSpace& V, const algebra::Vector&
   return v;
 }
 
-inline algebra::Vector restricted(const PolynomialSpace& V, const algebra::Vector& v) {
+inline algebra::Vector restricted(const Space& V, const algebra::Vector& v) {
   algebra::Vector X3(V.points());
   const auto out = algebra::host_overwrite(X3);
   const auto in = algebra::host_view(v);
@@ -55,28 +58,28 @@ inline algebra::Vector restricted(const PolynomialSpace& V, const algebra::Vecto
 
 /// R = F - (-1)^alpha D X3 - a(u, ·).
 inline algebra::Vector residual(const FluxProblem& problem, const Coefficients& u, const algebra::Vector& X3) {
-  const PolynomialSpace& V = problem.V;
+  const Space& V = problem.V;
   algebra::Vector R(V.map()), forces(V.map());
-  V.load(*problem.tension, *problem.force, problem.boundary, 0, R);
-  V.forces(*problem.tension, u, forces);
+  load(*problem.form(), *problem.force, problem.boundary, 0, R);
+  apply(*problem.form(), u, forces);
   R.update(-1, forces, problem.sign, extended(V, X3), 1);
   return R;
 }
 
 inline View<double**> flux(const FluxProblem& problem, const Coefficients& u) {
-  const View<double**> sigma("sigma", problem.V.mesh().owned_cells, 2 * reference::dimension(problem.V.flux_degree() + 1));
-  problem.V.native_flux(*problem.tension, *problem.force, u, problem.boundary, 0, {}, sigma);
+  const View<double**> sigma("sigma", problem.V.mesh().owned_cells, 2 * reference::dimension(problem.degree() + 1));
+  problem.form()->native_flux(*problem.force, u, problem.boundary, 0, {}, sigma);
   return sigma;
 }
 
 /// The worst of (div sigma, v)_K - (f - (-1)^alpha lambda_h - r, v)_K over the cells and an orthonormal basis of P_q, over the largest of
 /// what enters.
 inline double imbalance(const FluxProblem& problem, const View<double**>& sigma, const algebra::Vector& R, const algebra::Vector& X3) {
-  const PolynomialSpace& V = problem.V;
-  const int n = V.basis().size(), q = V.flux_degree();
+  const Space& V = problem.V;
+  const int n = V.basis().size(), q = problem.degree();
   const Coefficients zero("zero", V.coefficients().entries.size()), free_zero("zero", problem.free.coefficients().entries.size());
   algebra::Vector F(problem.free.map());
-  problem.free.load(*problem.tension, *problem.force, problem.none(), 0, F);
+  load(*problem.diffusion(problem.free, problem.tension), *problem.force, problem.none(), 0, F);
   const Coefficients f = problem.free.complete(F, free_zero), lambda = V.complete(extended(V, X3), zero);
   const View<double**> r("r", V.cells().extent(0), n);
   V.share(R, r);
@@ -112,8 +115,9 @@ struct NormalMoment {
   int j;
   double value;
 };
-inline std::vector<NormalMoment> normal_moments(const PolynomialSpace& V, const View<double**>& sigma, int count) {
-  const reference::Modal modal(V.flux_degree() + 1);
+inline std::vector<NormalMoment> normal_moments(const FluxProblem& problem, const View<double**>& sigma, int count) {
+  const Space& V = problem.V;
+  const reference::Modal modal(problem.degree() + 1);
   const auto host = mesh::on_host(V.mesh());
   const int size = modal.size();
   std::vector<NormalMoment> all;
@@ -133,11 +137,12 @@ inline std::vector<NormalMoment> normal_moments(const PolynomialSpace& V, const 
 }
 
 /// The worst sum of the outward normal fluxes of both cells of a face inside, and of moments beyond q, over the largest moment.
-inline double discontinuity(const PolynomialSpace& V, const View<double**>& sigma) {
-  const int q = V.flux_degree(), count = q + 2;
+inline double discontinuity(const FluxProblem& problem, const View<double**>& sigma) {
+  const Space& V = problem.V;
+  const int q = problem.degree(), count = q + 2;
   std::map<std::pair<GlobalIndex, int>, std::pair<int, double>> sum;
   double largest = 0, worst = 0;
-  for (const auto& moment : V.mesh().comm.gather(normal_moments(V, sigma, count))) {
+  for (const auto& moment : V.mesh().comm.gather(normal_moments(problem, sigma, count))) {
     auto& entry = sum[{moment.face, moment.j}];
     ++entry.first;
     entry.second += moment.value;
@@ -153,12 +158,12 @@ inline double discontinuity(const PolynomialSpace& V, const View<double**>& sigm
 inline double traction_error(const FluxProblem& problem, const std::vector<bool>& dirichlet, const View<double**>& sigma) {
   const auto& mesh = problem.V.mesh();
   const auto host = mesh::on_host(mesh);
-  const int count = problem.V.flux_degree() + 1;
+  const int count = problem.degree() + 1;
   const auto rule = reference::line_quadrature(2 * problem.V.basis().degree() + 4);
   std::map<GlobalIndex, LocalIndex> local;
   for (LocalIndex F = 0; F < mesh.faces; ++F) local[mesh.face_id[F]] = F;
   double worst = 0, largest = 0;
-  for (const auto& moment : normal_moments(problem.V, sigma, count)) {
+  for (const auto& moment : normal_moments(problem, sigma, count)) {
     const LocalIndex F = local[moment.face], tag = host.face_tag(F);
     largest = std::max(largest, std::abs(moment.value));
     if (tag < 0 || dirichlet[tag]) continue;
@@ -179,10 +184,10 @@ inline double traction_error(const FluxProblem& problem, const std::vector<bool>
 
 /// ‖mu^{1/2} grad u_h + mu^{-1/2} sigma‖ over the mesh, with the gradients of the cells' polynomials.
 inline double mismatch(const FluxProblem& problem, const Coefficients& u, const View<double**>& sigma) {
-  const PolynomialSpace& V = problem.V;
+  const Space& V = problem.V;
   const auto host = mesh::on_host(V.mesh());
   const int n = V.basis().size();
-  const reference::Modal modal(V.flux_degree() + 1);
+  const reference::Modal modal(problem.degree() + 1);
   const auto rule = reference::triangle_quadrature(2 * V.basis().degree() + 4);
   const auto table = V.basis().tabulate(rule.size(), rule.point.data());
   const auto phi = modal.values(rule.size(), rule.point.data());
@@ -214,16 +219,16 @@ inline double mismatch(const FluxProblem& problem, const Coefficients& u, const 
 
 /// The discrete solution without contact.
 inline Coefficients solution(const FluxProblem& problem) {
-  const PolynomialSpace& V = problem.V;
+  const Space& V = problem.V;
   algebra::Vector F(V.map()), held(V.map()), u(V.map());
   const auto lift = V.lift(problem.boundary, 0);
-  V.load(*problem.tension, *problem.force, problem.boundary, 0, F);
-  V.forces(*problem.tension, lift, held);
+  load(*problem.form(), *problem.force, problem.boundary, 0, F);
+  apply(*problem.form(), lift, held);
   F.update(-1, held, 1);
   algebra::LinearParams params;
   params.solver = algebra::SolverKind::direct;
   algebra::Solver solver(params);
-  solver.set_matrix(V.stiffness(*problem.tension), 1, Teuchos::null);
+  solver.set_matrix(assemble(*problem.form()), 1, Teuchos::null);
   EXPECT_LT(solver.solve(F, u, {1e-13 * F.norm2(), 0, nullptr}).residual, 1e-10 * F.norm2());
   return V.complete(u, lift);
 }

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <limits>
 
-#include "hdf5_file.hpp"
+#include "hdf5/hdf5_file.hpp"
 #include "scratch.hpp"
 #include "seal.hpp"
 

@@ -1,4 +1,4 @@
-#include "exchange.hpp"
+#include "hdf5/exchange.hpp"
 
 #include <gtest/gtest.h>
 

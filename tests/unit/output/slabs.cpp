@@ -1,4 +1,4 @@
-#include "slabs.hpp"
+#include "hdf5/slabs.hpp"
 
 #include <gtest/gtest.h>
 

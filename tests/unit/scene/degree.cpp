@@ -5,7 +5,7 @@
 
 #include "sample.hpp"
 #include "thixis/core/error.hpp"
-#include "thixis/scene/membranes.hpp"
+#include "thixis/scene/field.hpp"
 
 namespace thixis::scene::test {
 namespace {
@@ -177,17 +177,6 @@ TEST(Degree, deep_texts_prove_nothing_and_do_no_harm) {
   std::string text = "x";
   for (int k = 0; k < 1000; ++k) text = "(" + text + ")";
   EXPECT_EQ(words(degree(text)), "none");
-}
-
-TEST(Degree, a_deck_names_that_of_its_data_and_not_that_of_the_exact_solution) {
-  SceneParams params;
-  params.model = Model::obstacle;
-  params.data.emplace();
-  params.data->u.text = "sin(x)", params.data->psi.text = "-abs(x)", params.data->degree = 1;
-  const MembraneScene scene = membrane_scene(params);
-  EXPECT_EQ(words(scene.obstacle->degree()), "1,0 in pieces");
-  EXPECT_EQ(words(scene.default_boundary.value[0]->degree()), "none");
-  EXPECT_EQ(words(scene.force[0]->degree()), "0,0");
 }
 
 }  // namespace

@@ -5,6 +5,7 @@ usage: extremes.py PROGRAM SCRATCH_FOLDER [arguments of unittest]
 import csv
 import json
 import math
+import os
 import pathlib
 import subprocess
 import sys
@@ -57,7 +58,9 @@ SOLVERS = {
     "direct": {"solver": "direct"},
     "reduced": {"form": "reduced", "solver": "cg", "preconditioner": "muelu"},
 }
-OTHER_METHODS = ({"name": "fem", "degree": 3}, {"name": "hho", "degree": 1}, {"name": "dg", "degree": 2})
+METHODS = os.environ.get("THIXIS_METHODS", "fem,dg,hho,fv").split(",")  # those that the program has
+OTHER_METHODS = [method for method in ({"name": "fem", "degree": 3}, {"name": "hho", "degree": 1}, {"name": "dg", "degree": 2})
+                 if method["name"] in METHODS]
 MESH = {"cells per side": 8}
 
 
@@ -118,6 +121,8 @@ class Extremes(unittest.TestCase):
 
     def test_only_differences_of_heights_matter(self):
         for method in ({"name": "fem"}, {"name": "fem", "degree": 2}, {"name": "hho"}, {"name": "dg"}):
+            if method["name"] not in METHODS:
+                continue
             at_zero = self.solved("zero", {"scene": {"model": "membranes", "data": self.TWO}, "mesh": self.COARSE, "method": method})
             for height in ("1e3", "-1e6", "1e9"):
                 with self.subTest(method=method, height=height):
@@ -150,6 +155,8 @@ class Extremes(unittest.TestCase):
         height = 1e3
         for model, method in (("obstacle", {"name": "fem", "degree": 1}), ("obstacle", {"name": "hho", "degree": 1}),
                               ("membranes", {"name": "dg", "degree": 1}), ("parabolic membranes", {"name": "fem", "degree": 2})):
+            if method["name"] not in METHODS:
+                continue
             for at_zero, raised in zip(written(model, method, 0.0), written(model, method, height), strict=True):
                 for key, value in at_zero.items():
                     by = height if key.split("_")[0] in ("u", "u1", "u2") else 0
@@ -164,6 +171,8 @@ class Extremes(unittest.TestCase):
 
         for method, solver in (({"name": "fem"}, "direct"), ({"name": "fem", "degree": 2}, "direct"), ({"name": "fem"}, "default"),
                                ({"name": "fem"}, "reduced"), ({"name": "hho", "degree": 1}, "direct")):
+            if method["name"] not in METHODS:
+                continue
             expected = in_units(1.0, method, solver)
             for factor in (1e-8, 1e8):
                 with self.subTest(method=method, solver=solver, factor=factor):

@@ -79,7 +79,7 @@ TEST(BoundaryData, that_no_face_resolves_are_counted_in_the_bound) {
   for (const char* u1 : {"sin(64*pi*x)*exp(64*pi*(y-1))", "sin(40*pi*x)*exp(40*pi*(y-1))", "0.003*(y+0.003)/((x-0.47)^2+(y+0.003)^2)"})
     for (const int degree : {1, 2, 4}) {
       auto deck = data({{"f1", "0"}, {"u1", u1}, {"u2", "-10"}, {"lambda", "0"}}, 0);
-      deck.method = by(method::MethodName::fem, degree);
+      deck.method = by("fem", degree);
       deck.method.quadrature_order = 30;
       const Solved run = solve(deck);
       EXPECT_GE(run.outcome.discretization->estimate(*run.outcome.X).total, *run.outcome.energy_error) << u1 << ", degree " << degree;

@@ -1,6 +1,6 @@
 #include "iterates.hpp"
 
-#include "thixis/models/membranes.hpp"
+#include "thixis/membranes/membranes.hpp"
 
 namespace thixis::verification {
 
@@ -10,7 +10,8 @@ Laid lay(const drive::RunParams& params, const core::Comm& comm) {
   Laid laid;
   laid.params = params;
   laid.hierarchy = mesh::build(params.mesh, comm, INPUTS);
-  laid.model = models::membranes(scene::membrane_scene(params.scene), factory(params.method.name), params.method, params.linear, {});
+  laid.model =
+      membranes::membranes(membranes::membrane_scene(params.scene), method_of(params.method.name), params.method, params.linear, {});
   laid.model->check(laid.hierarchy.finest(), {});
   laid.discretization = laid.model->discretize(laid.hierarchy, static_cast<int>(laid.hierarchy.levels.size()) - 1);
   return laid;
@@ -52,7 +53,7 @@ drive::RunParams known_case(const std::string& name, int level, const method::Me
   auto params = catalogued(name, level);
   params.method = method;
   if (name == "radial obstacle") {
-    params.scene.model = scene::Model::obstacle;
+    params.scene.model = "obstacle";
     params.mesh.generator = mesh::Generator::disk;
   }
   return params;
@@ -61,22 +62,16 @@ drive::RunParams known_case(const std::string& name, int level, const method::Me
 std::vector<std::pair<std::string, method::MethodParams>> all_variants(int degree) {
   std::vector<std::pair<std::string, method::MethodParams>> variants;
   const std::string p = " P" + std::to_string(degree);
-  variants.emplace_back("fem" + p, by(method::MethodName::fem, degree));
-  if (degree > 1) variants.emplace_back("fem, Bernstein" + p, by(method::MethodName::fem, degree, method::Nodes::bernstein));
-  for (const auto variant : {method::Variant::sipg, method::Variant::nipg})
-    for (const auto boundary : {method::BoundaryTreatment::weak, method::BoundaryTreatment::strong}) {
-      auto method = by(method::MethodName::dg, degree);
-      method.variant = variant;
-      method.boundary = boundary;
-      variants.emplace_back((variant == method::Variant::sipg ? "sipg, " : "nipg, ") +
-                                std::string(boundary == method::BoundaryTreatment::weak ? "weak" : "strong") + p,
-                            method);
-    }
-  for (const auto length : {method::StabilizationLength::face, method::StabilizationLength::cell}) {
-    auto method = by(method::MethodName::hho, degree);
-    method.stabilization_length = length;
-    variants.emplace_back((length == method::StabilizationLength::face ? "hho, face" : "hho, cell") + p, method);
-  }
+  variants.emplace_back("fem" + p, by("fem", degree));
+  if (degree > 1) variants.emplace_back("fem, Bernstein" + p, by("fem", degree, method::Nodes::bernstein));
+  for (const char* variant : {"sipg", "nipg"})
+    for (const char* boundary : {"weak", "strong"})
+      if (is_built("dg"))
+        variants.emplace_back(std::string(variant) + ", " + boundary + p,
+                              with(by("dg", degree), {{"variant", variant}, {"boundary", boundary}}));
+  for (const char* length : {"face", "cell"})
+    if (is_built("hho"))
+      variants.emplace_back(std::string("hho, ") + length + p, with(by("hho", degree), {{"stabilization length", length}}));
   return variants;
 }
 

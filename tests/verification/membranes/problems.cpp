@@ -3,10 +3,7 @@
 #include <cmath>
 
 #include "thixis/core/deck.hpp"
-#include "thixis/dg/space.hpp"
-#include "thixis/fem/lagrange_space.hpp"
-#include "thixis/hho/space.hpp"
-#include "thixis/models/membranes.hpp"
+#include "thixis/membranes/membranes.hpp"
 
 namespace thixis::verification {
 namespace {
@@ -19,28 +16,18 @@ void solve_directly(drive::RunParams& params) {
 
 }  // namespace
 
-method::SpaceFactory factory(method::MethodName name) {
-  switch (name) {
-    case method::MethodName::dg:
-      return dg::make_space;
-    case method::MethodName::hho:
-      return hho::make_space;
-    default:
-      return fem::make_lagrange_space;
-  }
-}
-
 Solved solve(const drive::RunParams& params, const core::Comm& comm, const drive::Observer& observer) {
   Solved run;
   run.hierarchy = mesh::build(params.mesh, comm, INPUTS);
-  run.model = models::membranes(scene::membrane_scene(params.scene), factory(params.method.name), params.method, params.linear, {});
+  run.model =
+      membranes::membranes(membranes::membrane_scene(params.scene), method_of(params.method.name), params.method, params.linear, {});
   run.model->check(run.hierarchy.finest(), {});
   run.outcome = drive::solve_stationary(*run.model, run.hierarchy, params, observer);
   return run;
 }
 
 drive::RunParams catalogued(const std::string& name, int level) {
-  drive::RunParams params;
+  auto params = catalogue().defaults();
   params.scene.case_name = name;
   params.mesh.generator = name.substr(0, 4) == "disk" ? mesh::Generator::disk : mesh::Generator::criss_cross;
   params.mesh.refinements = level;
@@ -49,7 +36,7 @@ drive::RunParams catalogued(const std::string& name, int level) {
 }
 
 drive::RunParams from_deck(const std::string& deck, int refinements) {
-  auto params = core::Deck::read(std::string(INPUTS) + "/" + deck).parse(drive::RunParams::schema());
+  auto params = core::Deck::read(std::string(INPUTS) + "/" + deck).parse(catalogue().schema());
   params.mesh.refinements = refinements;
   solve_directly(params);
   return params;
@@ -59,7 +46,7 @@ drive::RunParams data(const std::map<std::string, std::string>& functions, int l
   auto deck = core::Deck::from_text("<ParameterList name=\"thixis\"/>", "data");
   deck.set("scene/model=" + model);
   for (const auto& [name, expression] : functions) deck.set("scene/data/" + name + "=" + expression);
-  auto params = deck.parse(drive::RunParams::schema());
+  auto params = deck.parse(catalogue().schema());
   params.mesh.refinements = level;
   solve_directly(params);
   return params;
@@ -69,7 +56,7 @@ drive::RunParams pressed(const std::string& mu1, const std::string& mu2, int lev
   return data({{"mu1", mu1}, {"mu2", mu2}, {"g1", "0.1"}, {"g2", "-0.1"}, {"f1", "-6 + 2*x"}, {"f2", "4 + y"}}, level);
 }
 
-method::MethodParams by(method::MethodName name, int degree, method::Nodes nodes) {
+method::MethodParams by(const std::string& name, int degree, method::Nodes nodes) {
   method::MethodParams method;
   method.name = name;
   method.degree = degree;
@@ -79,12 +66,11 @@ method::MethodParams by(method::MethodName name, int degree, method::Nodes nodes
 
 std::vector<std::pair<std::string, method::MethodParams>> all_methods(int degree) {
   const std::string p = " of degree " + std::to_string(degree);
-  auto nipg = by(method::MethodName::dg, degree);
-  nipg.variant = method::Variant::nipg;
-  return {{"fem" + p, by(method::MethodName::fem, degree)},
-          {"sipg" + p, by(method::MethodName::dg, degree)},
-          {"nipg" + p, nipg},
-          {"hho" + p, by(method::MethodName::hho, degree)}};
+  std::vector<std::pair<std::string, method::MethodParams>> all;
+  for (const auto& [name, method] : {std::pair("fem", by("fem", degree)), std::pair("sipg", by("dg", degree)),
+                                     std::pair("nipg", with(by("dg", degree), {{"variant", "nipg"}})), std::pair("hho", by("hho", degree))})
+    if (is_built(method.name)) all.emplace_back(name + p, method);
+  return all;
 }
 
 double order(double coarse, double fine) { return std::log2(coarse / fine); }

@@ -4,10 +4,17 @@
 #include <string>
 #include <vector>
 
+#include "methods.hpp"
 #include "thixis/algebra/tpetra.hpp"
 #include "thixis/drive/stationary.hpp"
+#include "thixis/membranes/membranes.hpp"
 
 namespace thixis::verification {
+
+using tests::built;
+using tests::is_built;
+using tests::method_of;
+using tests::with;
 
 /// A run with its mesh, which its results refer to.
 struct Solved {
@@ -30,12 +37,9 @@ drive::RunParams data(const std::map<std::string, std::string>& functions, int l
 drive::RunParams pressed(const std::string& mu1, const std::string& mu2, int level);
 
 /// The block `method` by its main entries.
-method::MethodParams by(method::MethodName name, int degree, method::Nodes nodes = method::Nodes::gauss_lobatto);
+method::MethodParams by(const std::string& name, int degree, method::Nodes nodes = method::Nodes::gauss_lobatto);
 
-/// The spaces of a method.
-method::SpaceFactory factory(method::MethodName name);
-
-/// All methods of one degree, each with its name for messages: fem, sipg, nipg, hho.
+/// All methods of one degree that the program has, each with its name for messages: fem, sipg, nipg, hho.
 std::vector<std::pair<std::string, method::MethodParams>> all_methods(int degree);
 
 /// log2 of the ratio of two successive errors.

@@ -6,9 +6,9 @@
 namespace thixis::verification {
 namespace {
 
-scene::BoundaryParams neumann(const std::string& t1, const std::string& t2) {
-  scene::BoundaryParams part;
-  part.kind = scene::BoundaryKind::neumann;
+membranes::BoundaryParams neumann(const std::string& t1, const std::string& t2) {
+  membranes::BoundaryParams part;
+  part.kind = membranes::BoundaryKind::neumann;
   part.t1.text = t1;
   part.t2.text = t2;
   return part;
@@ -42,7 +42,7 @@ TEST(UserData, by_expressions_reproduce_the_catalogued_case) {
 TEST(UserData, without_derivatives_of_the_solution_they_are_formed_by_differences) {
   auto params = from_deck("user_data.xml", 2);
   const double error = *solve(params).outcome.energy_error;
-  params.scene.data->u1_x = params.scene.data->u1_y = {};
+  membranes::of(params.scene).data->u1_x = membranes::of(params.scene).data->u1_y = {};
   EXPECT_NEAR(*solve(params).outcome.energy_error, error, 1e-6 * error);
 }
 
@@ -50,7 +50,7 @@ TEST(UserData, with_neumann_data_on_one_side_have_order_1_without_contact) {
   expect_order_1(
       [](int level) {
         auto params = data(apart(), level);
-        params.scene.boundary["right"] = neumann("2*cos(x)*(1 + y^2)", "(1 + x)*y");
+        membranes::of(params.scene).boundary["right"] = neumann("2*cos(x)*(1 + y^2)", "(1 + x)*y");
         return params;
       },
       3);
@@ -63,9 +63,9 @@ TEST(UserData, with_neumann_data_on_three_sides_of_a_rectangle_have_order_1) {
         params.mesh.generator = mesh::Generator::rectangle;
         params.mesh.lower = {0, -0.5};
         params.mesh.upper = {1, 1.5};
-        params.scene.boundary["left"] = neumann("-2*cos(x)*(1 + y^2)", "-(1 + x)*y");
-        params.scene.boundary["top"] = neumann("4*y*sin(x)", "(1 + x)*x");
-        params.scene.boundary["bottom"] = neumann("-4*y*sin(x)", "-(1 + x)*x");
+        membranes::of(params.scene).boundary["left"] = neumann("-2*cos(x)*(1 + y^2)", "-(1 + x)*y");
+        membranes::of(params.scene).boundary["top"] = neumann("4*y*sin(x)", "(1 + x)*x");
+        membranes::of(params.scene).boundary["bottom"] = neumann("-4*y*sin(x)", "-(1 + x)*x");
         return params;
       },
       3);
@@ -73,9 +73,9 @@ TEST(UserData, with_neumann_data_on_three_sides_of_a_rectangle_have_order_1) {
 
 TEST(UserData, a_wrong_sign_of_the_neumann_data_shows_in_the_error) {
   auto params = data(apart(), 2);
-  params.scene.boundary["right"] = neumann("2*cos(x)*(1 + y^2)", "(1 + x)*y");
+  membranes::of(params.scene).boundary["right"] = neumann("2*cos(x)*(1 + y^2)", "(1 + x)*y");
   const double error = *solve(params).outcome.energy_error;
-  params.scene.boundary["right"] = neumann("-2*cos(x)*(1 + y^2)", "(1 + x)*y");
+  membranes::of(params.scene).boundary["right"] = neumann("-2*cos(x)*(1 + y^2)", "(1 + x)*y");
   EXPECT_GT(*solve(params).outcome.energy_error, 10 * error);
 }
 
@@ -93,7 +93,7 @@ TEST(UserData, on_a_gmsh_mesh_follow_the_physical_names) {
   EXPECT_LE(run.outcome.kkt->worst(), 1e-8);
   EXPECT_GT(run.outcome.finest.active, 100);
   auto pulled = params;  // a part of the boundary that is pulled up lifts the membrane off
-  pulled.scene.boundary.at("hole").t1.text = "5";
+  membranes::of(pulled.scene).boundary.at("hole").t1.text = "5";
   EXPECT_LT(solve(pulled).outcome.finest.active, run.outcome.finest.active / 2);
 }
 

@@ -8,26 +8,8 @@
 
 #include "thixis/complementarity/kkt.hpp"
 #include "thixis/complementarity/newton.hpp"
-#include "thixis/dg/space.hpp"
-#include "thixis/fem/lagrange_space.hpp"
-#include "thixis/hho/space.hpp"
 
 namespace thixis::verification {
-namespace {
-
-method::SpaceFactory factory(method::MethodName name) {
-  switch (name) {
-    case method::MethodName::dg:
-      return dg::make_space;
-    case method::MethodName::hho:
-      return hho::make_space;
-    default:
-      return fem::make_lagrange_space;
-  }
-}
-
-}  // namespace
-
 int March::total() const { return std::accumulate(newton.begin(), newton.end(), 0); }
 
 double March::at(std::size_t step, const std::string& column) const {
@@ -51,7 +33,8 @@ double March::error_at_ends(double step) const {
 
 March march(const drive::RunParams& params, int steps, double end, const AtStep& at_step, const core::Comm& comm) {
   March run;
-  run.model = models::parabolic_membranes(scene::membrane_scene(params.scene), factory(params.method.name), params.method, params.linear);
+  run.model =
+      membranes::parabolic_membranes(membranes::membrane_scene(params.scene), method_of(params.method.name), params.method, params.linear);
   run.evolution = run.model->evolve(params.mesh, comm, "", {});
   models::Evolution& evolution = *run.evolution;
   run.X = evolution.initial();
@@ -71,9 +54,9 @@ March march(const drive::RunParams& params, int steps, double end, const AtStep&
   return run;
 }
 
-drive::RunParams on_squares(const std::string& name, int n, method::MethodName method, int degree) {
-  drive::RunParams params;
-  params.scene.model = scene::Model::parabolic_membranes;
+drive::RunParams on_squares(const std::string& name, int n, const std::string& method, int degree) {
+  auto params = catalogue().defaults();
+  params.scene.model = "parabolic membranes";
   params.scene.case_name = name;
   params.mesh.generator = mesh::Generator::rectangle;
   params.mesh.cells_per_side = n;

@@ -9,8 +9,6 @@
 namespace thixis::verification {
 namespace {
 
-using method::MethodName;
-
 /// h = tau = 1/n, P1, the rule of degree 5.
 struct Row {
   int n;
@@ -35,17 +33,17 @@ void compare(const Row& row) {
     EXPECT_NEAR(value, reference, 0.002 * reference) << "n = " << row.n << ", " << what;
   };
   near("energy error, right", run.error_at_ends(1.0 / row.n), row.right);
-  near("energy error, affine", run.evolution->energy_error().value(), row.affine);
+  near("energy error, affine", run.evolution->error_so_far().value(), row.affine);
   near("L2 error of u1", run.largest("l2_error_u1"), row.l2_u1);
   near("L2 error of u2", run.largest("l2_error_u2"), row.l2_u2);
   EXPECT_LE(run.total(), row.newton_min) << "n = " << row.n;
-  std::cout << "n = " << row.n << ": " << run.error_at_ends(1.0 / row.n) << ' ' << run.evolution->energy_error().value() << ' '
+  std::cout << "n = " << row.n << ": " << run.error_at_ends(1.0 / row.n) << ' ' << run.evolution->error_so_far().value() << ' '
             << run.largest("l2_error_u1") << ' ' << run.largest("l2_error_u2") << " min " << run.total() << " kkt " << run.worst_kkt;
   auto params = as_in_the_table(row.n);
   params.newton.c_function = complementarity::CFunction::fischer_burmeister;
   const March smooth = march(params, row.n, 1);
   std::cout << " fb " << smooth.total() << '\n';
-  EXPECT_NEAR(smooth.evolution->energy_error().value(), run.evolution->energy_error().value(), 1e-6);
+  EXPECT_NEAR(smooth.evolution->error_so_far().value(), run.evolution->error_so_far().value(), 1e-6);
   for (std::size_t n = 0; n < run.series.size(); ++n)
     if ((n + 1) * 4 % row.n == 0) std::cout << "  t = " << (n + 1.0) / row.n << ": " << run.at(n, "contact_area") << '\n';
 }

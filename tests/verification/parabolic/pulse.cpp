@@ -3,7 +3,7 @@
 
 #include "march.hpp"
 #include "thixis/complementarity/newton.hpp"
-#include "thixis/fem/lagrange_space.hpp"
+#include "thixis/fem/entry.hpp"
 
 namespace thixis::verification {
 namespace {
@@ -18,16 +18,15 @@ struct Seen {
 Seen one_step(const std::string& force, const std::string& height = "0.1") {
   drive::RunParams params = on_squares("", 4);
   params.scene.case_name.reset();
-  params.scene.data.emplace();
-  scene::DataParams& data = *params.scene.data;
+  membranes::of(params.scene).data.emplace();
+  membranes::DataParams& data = *membranes::of(params.scene).data;
   data.f1 = {force};
   data.g1 = {height};
   data.g2 = {"0"};
   data.initial.emplace();
   data.initial->u1 = {"0.1"};
   data.initial->u2 = {"0"};
-  const auto model =
-      models::parabolic_membranes(scene::membrane_scene(params.scene), fem::make_lagrange_space, params.method, params.linear);
+  const auto model = membranes::parabolic_membranes(membranes::membrane_scene(params.scene), fem::entry(), params.method, params.linear);
   const auto evolution = model->evolve(params.mesh, core::Comm(), "", {});
   auto X = evolution->initial();
   const algebra::Vector before(*X, Teuchos::Copy);

@@ -3,7 +3,7 @@
 
 #include "thixis/algebra/tpetra.hpp"
 #include "thixis/drive/evolve.hpp"
-#include "thixis/models/two_phase.hpp"
+#include "thixis/flow/two_phase.hpp"
 #include "thixis/scene/field.hpp"
 
 namespace thixis::drive {
@@ -13,16 +13,16 @@ constexpr double year = 31557600;
 
 /// Wet rock of 20 m whose right end is held, what is drawn or brought on the left [kg/(m^3 year)], and a run of steps of 1000 years.
 struct Rock {
-  scene::TwoPhaseScene scene;
+  flow::TwoPhaseScene scene;
   RunParams params;
 
   Rock() {
-    scene::SceneParams given;
-    given.model = scene::Model::two_phase;
-    given.flow.emplace();
-    scene = scene::two_phase_scene(given);
+    models::SceneParams given;
+    given.model = "two-phase";
+    flow::of(given).flow.emplace();
+    scene = flow::two_phase_scene(given);
     auto& right = scene.boundary["right"];
-    right.kind = scene::FlowBoundaryKind::state;
+    right.kind = flow::FlowBoundaryKind::state;
     right.state = scene.initial;
     params.mesh.generator = mesh::Generator::interval;
     params.mesh.lower = {0};
@@ -35,9 +35,9 @@ struct Rock {
   }
 
   EvolutionOutcome run() {
-    models::TwoPhaseBoundParams bound;
+    flow::TwoPhaseBoundParams bound;
     bound.adaptive = params.stopping.rule == complementarity::StoppingRule::adaptive;
-    const auto model = models::two_phase(scene, params.linear, year, bound);
+    const auto model = flow::two_phase(scene, params.linear, year, bound);
     const auto evolution = model->evolve(params.mesh, core::Comm(), "", {});
     return evolve(*evolution, params, {});
   }

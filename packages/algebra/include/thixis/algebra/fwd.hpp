@@ -1,20 +1,10 @@
 #pragma once
 /// The Tpetra types that Thixis uses, declared without a Tpetra header: one scalar, one pair of ordinals, the default node.
 /// `src/aliases.cpp` proves that they are Tpetra's own defaults.
-#include <Kokkos_Macros.hpp>
 #include <Teuchos_RCPDecl.hpp>
 
+#include "thixis/algebra/compat.hpp"
 #include "thixis/core/types.hpp"
-
-namespace Kokkos {
-class Serial;
-class OpenMP;
-class HostSpace;
-namespace Compat {
-template <class ExecutionSpace, class MemorySpace>
-class KokkosDeviceWrapperNode;
-}
-}  // namespace Kokkos
 
 namespace Tpetra {
 template <class LO, class GO, class Node>
@@ -35,9 +25,9 @@ class Import;
 
 namespace thixis::algebra {
 #ifdef KOKKOS_ENABLE_OPENMP
-using Node = Kokkos::Compat::KokkosDeviceWrapperNode<Kokkos::OpenMP, Kokkos::HostSpace>;
+using Node = compat::KokkosDeviceWrapperNode<Kokkos::OpenMP, Kokkos::HostSpace>;
 #else
-using Node = Kokkos::Compat::KokkosDeviceWrapperNode<Kokkos::Serial, Kokkos::HostSpace>;
+using Node = compat::KokkosDeviceWrapperNode<Kokkos::Serial, Kokkos::HostSpace>;
 #endif
 using Map = Tpetra::Map<LocalIndex, GlobalIndex, Node>;
 using Vector = Tpetra::Vector<double, LocalIndex, GlobalIndex, Node>;

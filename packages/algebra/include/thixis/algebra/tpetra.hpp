@@ -1,5 +1,5 @@
 #pragma once
-/// The one header that brings in Tpetra, with what hides the differences between its versions.
+/// The one header that brings in Tpetra.
 #include <Kokkos_Core.hpp>
 #include <Teuchos_DefaultMpiComm.hpp>
 #include <Tpetra_CrsGraph.hpp>
@@ -14,20 +14,9 @@
 
 namespace thixis::algebra {
 
-namespace detail {
-template <class M>
-auto local_size(const M& map, int) -> decltype(map.getLocalNumElements()) {
-  return map.getLocalNumElements();
-}
-template <class M>
-auto local_size(const M& map, long) -> decltype(map.getNodeNumElements()) {  // before Trilinos 13.4
-  return map.getNodeNumElements();
-}
-}  // namespace detail
-
 // --- Sizes on this rank, not collective ------------------------------------------------------------------------------------------
 
-inline LocalIndex local_size(const Map& map) { return static_cast<LocalIndex>(detail::local_size(map, 0)); }
+inline LocalIndex local_size(const Map& map) { return static_cast<LocalIndex>(compat::local_size(map)); }
 inline LocalIndex local_rows(const Graph& graph) { return local_size(*graph.getRowMap()); }
 inline LocalIndex local_rows(const Matrix& A) { return local_size(*A.getRowMap()); }
 inline LocalIndex local_columns(const Graph& graph) { return local_size(*graph.getColMap()); }  ///< ghosts included
@@ -58,8 +47,6 @@ inline MapPtr map_of(const std::vector<GlobalIndex>& ids, const core::Comm& comm
 
 /// The map of `fields` unknowns per id of another map: id g becomes fields·g, ..., fields·g + fields - 1. Not collective for column maps.
 MapPtr interlaced(const MapPtr& map, int fields);
-/// Likewise, but only the first `complete` ids of this rank have their last field; the ids of the missing ones are left out. Collective.
-MapPtr interlaced(const MapPtr& map, int fields, LocalIndex complete);
 
 /// Collective. The graph with these rows and columns, given in local column indices, sorted in each row.
 GraphPtr make_graph(const MapPtr& rows, const MapPtr& columns, const Graph::local_graph_device_type::row_map_type::non_const_type& row_map,

@@ -20,6 +20,8 @@ class ActiveSet {
   ActiveSet() = default;  ///< no points
   /// Collective on the map of the points. K, G, s on the same map.
   ActiveSet(const algebra::Vector& K, const algebra::Vector& G, const algebra::Vector& s, Ties ties, double tie);
+  /// Anew, in the memory that it has.
+  void set(const algebra::Vector& K, const algebra::Vector& G, const algebra::Vector& s, Ties ties, double tie);
 
   const std::vector<std::uint8_t>& flags() const { return flags_; }  ///< one per local point: 1 contact, 0 free
   long long count() const { return count_; }                         ///< contact points on all ranks
@@ -40,5 +42,7 @@ class ActiveSet {
 
 /// max_l max(|K_l|, s_l |G_l|) over all ranks. Collective.
 double largest_argument(const algebra::Vector& K, const algebra::Vector& G, const algebra::Vector& s);
+/// max_l s_l |G_l| over all ranks. Collective.
+double largest_multiplier(const algebra::Vector& G, const algebra::Vector& s);
 
 }  // namespace thixis::complementarity

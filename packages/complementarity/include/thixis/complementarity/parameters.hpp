@@ -11,25 +11,17 @@ enum class Start { cold, nested };
 enum class Globalization { none, line_search, hybrid };
 enum class Scaling { none, physical };
 
-/// Block `newton/initial`: the functions a cold start begins with; nothing given is zero inside, or the height
-/// closest to zero at which the membranes are held. They are evaluated by the model:
-/// u1 and u2 are the two membranes, u is the one over an obstacle.
-struct InitialParams {
-  std::optional<core::Formula> u, u1, u2, lambda;
-  static const core::Schema<InitialParams>& schema();
-};
-
-/// Block `newton`. What the globalizations do is written at `newton()` in newton.hpp; `start` and `initial` are read by the drivers.
+/// Block `newton`. What the globalizations do is written at `newton()` in newton.hpp; `start` is read by the drivers.
 struct NewtonParams {
   CFunction c_function = CFunction::min;
   int max_iterations = 200;
   Start start = Start::cold;
-  InitialParams initial;
   Globalization globalization = Globalization::none;
   Ties ties = Ties::contact;
   double tie_tolerance = 1e-12;
   Scaling scaling = Scaling::physical;
   std::optional<int> sweeps;  ///< of nonlinear smoothing after a step; not given: 10 in nested runs of symmetric methods, otherwise none
+  core::Extras own;           ///< what models have for themselves
   static const core::Schema<NewtonParams>& schema();
 };
 
@@ -55,6 +47,10 @@ struct StoppingParams {
   std::optional<double> time_scale;     ///< alpha, two-phase flow, in the unit of time of the deck; not given: 2500 years
   std::optional<double>
       friedrichs;  ///< h_Omega C_PF of the bounds in time and of the literature; not given: that of the box around the domain
+  /// The nonlinear residual that ends Newton's method: of the data's norm `reference`, and what rounding leaves.
+  double nonlinear_residual(double reference, double rounding) const {
+    return nonlinear_tolerance * reference + absolute_tolerance + rounding;
+  }
   static const core::Schema<StoppingParams>& schema();
 };
 

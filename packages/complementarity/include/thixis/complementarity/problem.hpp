@@ -49,6 +49,12 @@ class Problem {
   /// C-functions are then homogeneous, too: a K + b G = C); 0 stands for |R|. Override it where that is far off.
   virtual double rhs_norm(const algebra::Vector& X, const algebra::Vector& R) const;
 
+  /// Inside the criterion of `solve`: X_i = X + dX is going to be looked at, and R is what `solve` was given. Until `look_away`, a problem
+  /// that has computed the residual at X_i on the way to dX answers `equations` for that object without computing it again. Default:
+  /// nothing.
+  virtual void look_at(const algebra::Vector& Xi, const algebra::Vector& R) const;
+  virtual void look_away() const;
+
   /// Nonlinear smoothing: `sweeps` cheap local corrections of X towards the solution, which they leave as it is. They settle the edge of
   /// the contact set by many layers of points where a Newton-min step moves it by one. Default: nothing.
   virtual void relax(algebra::Vector& X, int sweeps) const;

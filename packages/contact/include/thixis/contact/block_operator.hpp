@@ -4,7 +4,7 @@
 
 #include "thixis/algebra/fwd.hpp"
 #include "thixis/contact/small.hpp"
-#include "thixis/method/space.hpp"
+#include "thixis/method/form.hpp"
 
 namespace thixis::contact {
 
@@ -13,7 +13,7 @@ struct CellForms {
   method::ElementUnknowns elements;  ///< columns of the matrices; the first `interior` of each cell belong to it alone
   int interior = 0;
   bool symmetric = true;
-  std::vector<std::shared_ptr<const method::CellForm>> form;
+  std::vector<std::shared_ptr<const method::ElementForm>> form;
 };
 
 /// m fields u_1, …, u_m, each with N unknowns on one map, and

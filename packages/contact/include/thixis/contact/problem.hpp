@@ -26,6 +26,8 @@ class Problem : public complementarity::Problem {
   bool weights(algebra::Vector& w) const override;
   double reference_norm() const override { return reference_; }
   void relax(algebra::Vector& X, int sweeps) const override;
+  void look_at(const algebra::Vector& Xi, const algebra::Vector& R) const override;
+  void look_away() const override { shown_ = nullptr; }
 
   const System& system() const { return *system_; }  ///< whose loads may be overwritten
   GlobalIndex unknowns() const;                      ///< all of X
@@ -33,6 +35,8 @@ class Problem : public complementarity::Problem {
   GlobalIndex nonzeros() const;                      ///< 0 before the first linearization
 
  protected:
+  Problem(std::shared_ptr<const System> system, Weights weights, double reference, const algebra::LinearParams& params,
+          const Teuchos::RCP<const algebra::MultiVector>& coordinates);
   /// What the rows are measured by, and the size of what acts, as a residual.
   void measure_by(Weights weights, double reference);
   /// The values of the operator's matrices have changed; weights come anew by measure_by.
@@ -50,7 +54,9 @@ class Problem : public complementarity::Problem {
   GlobalIndex left_;  ///< unknowns of the fields that condensation does not eliminate
   Teuchos::RCP<algebra::MultiVector> product_;
   mutable std::unique_ptr<ProjectedJacobi> smoother_;  ///< made where smoothing is asked for
-  std::unique_ptr<LinearizedSystem> linearized_;       ///< made at the first linearization: a run that only counts pays nothing for it
+  mutable const algebra::Vector* shown_ = nullptr;     ///< the iterate that is looked at
+  mutable Teuchos::RCP<algebra::Vector> shown_residual_;
+  std::unique_ptr<LinearizedSystem> linearized_;  ///< made at the first linearization: a run that only counts pays nothing for it
 };
 
 }  // namespace thixis::contact

@@ -20,6 +20,7 @@ class ProjectedJacobi {
  private:
   const System& system_;
   double damping_;
+  Kokkos::View<const LocalIndex*> point_;  ///< of each node, or -1
 };
 
 }  // namespace thixis::contact

@@ -25,7 +25,7 @@ class Deck {
   /// "inputs/x.xml:14: newton/max iteration: no such parameter. Did you mean 'max iterations'?"
   template <class P>
   P parse(const Schema<P>& schema) const {
-    P params{};
+    P params = *std::static_pointer_cast<P>(schema.description().make());
     fill(schema.description(), &params);
     return params;
   }

@@ -91,6 +91,9 @@ class Description {
   void add(Parameter parameter);
   void add(Block block);
   void add_check(std::function<void(const void*, Problems&)> check) { checks_.push_back(std::move(check)); }
+  /// Takes over what describes a part of the object: `open` and `look` find it.
+  void adopt(const Description& of_part, const std::function<void*(void* object)>& open,
+             const std::function<const void*(const void* object)>& look);
   void require_last();
   void show_last() { parameters_.back().exemplary = true; }
 

@@ -2,6 +2,7 @@
 #include <type_traits>
 
 #include "thixis/core/description.hpp"
+#include "thixis/core/extras.hpp"
 
 namespace thixis::core {
 
@@ -52,8 +53,8 @@ T from_value(const Description::Value& value) {
 }  // namespace detail
 
 /// One block of the deck, described once, next to the struct P that it fills. From it come the reader, `thixis describe`, the reference
-/// page and the sentences of the errors. Defaults are those of a default-constructed P; they must be allowed themselves (core::Error if
-/// not), but an empty array or text stands for "not given" where an empty one is not allowed.
+/// page and the sentences of the errors. Defaults are those of `defaults`; they must be allowed themselves (core::Error if not), but an
+/// empty array or text stands for "not given" where an empty one is not allowed.
 ///
 ///     static const auto s = core::Schema<NewtonParams>("newton", "How the nonlinear system is solved.")
 ///         .parameter("max iterations", &NewtonParams::max_iterations, core::at_least(0), "Newton steps after which the run gives up.")
@@ -64,8 +65,13 @@ T from_value(const Description::Value& value) {
 template <class P>
 class Schema {
  public:
-  Schema(const std::string& name, const std::string& sentence)
-      : description_(std::make_shared<Description>(name, sentence, [] { return std::static_pointer_cast<void>(std::make_shared<P>()); })) {}
+  Schema(const std::string& name, const std::string& sentence, const P& defaults = P())
+      : description_(std::make_shared<Description>(name, sentence,
+                                                   [defaults] { return std::static_pointer_cast<void>(std::make_shared<P>(defaults)); })) {}
+
+  /// A schema of its own, which may be added to.
+  Schema(const Schema& other) : description_(std::make_shared<Description>(*other.description_)) {}
+  Schema& operator=(const Schema&) = delete;
 
   template <class M, class B>
   Schema& parameter(const std::string& name, M B::*member, const Range& range, const std::string& sentence) {
@@ -154,6 +160,15 @@ class Schema {
   template <class B, class T>
   Schema& values(const std::string& name, std::map<std::string, T> B::*member, const std::string& sentence) {
     return values(name, member, Range{}, sentence);
+  }
+
+  /// The parameters, sublists and checks of a struct Q in the `extras` of P, as if they were those of P.
+  template <class B, class Q>
+  Schema& with(Extras B::*extras, const Schema<Q>& more) {
+    description_->adopt(
+        more.description(), [extras](void* object) -> void* { return &(static_cast<P*>(object)->*extras).template get<Q>(); },
+        [extras](const void* object) -> const void* { return &(static_cast<const P*>(object)->*extras).template get<Q>(); });
+    return *this;
   }
 
   /// The parameter or block added last must be given.

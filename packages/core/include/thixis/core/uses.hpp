@@ -21,7 +21,7 @@ struct Use {
 /// (check_used), and decks that are written leave it out. Of several conditions of a path the first one that does not hold speaks.
 ///
 ///     static const auto uses = core::Uses<RunParams>()
-///         .when("method/penalty", [](const RunParams& p) { return p.method.name == MethodName::dg; }, "method/name = dg");
+///         .when("method/penalty", [](const RunParams& p) { return p.method.name == "dg"; }, "method/name = dg");
 template <class P>
 class Uses {
  public:

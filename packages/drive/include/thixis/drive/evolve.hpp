@@ -4,17 +4,17 @@
 #include <string>
 
 #include "thixis/complementarity/newton.hpp"
+#include "thixis/drive/effort.hpp"
 #include "thixis/drive/params.hpp"
 #include "thixis/models/evolution.hpp"
 
 namespace thixis::drive {
 
-/// How far a run in time has come. Behind a restart everything that was done before it counts, too.
-struct TimePosition {
-  int step = 0;                                      ///< accepted steps n
-  double time = 0;                                   ///< t_n, in the unit of the deck
-  int newton_iterations = 0, linear_iterations = 0;  ///< of all steps, those of failed attempts, too
-  int retries = 0;                                   ///< attempts that were given up
+/// How far a run in time has come, with what all steps took.
+struct TimePosition : Effort {
+  int step = 0;     ///< accepted steps n
+  double time = 0;  ///< t_n, in the unit of the deck
+  int retries = 0;  ///< attempts that were given up
 };
 
 /// The step that was accepted, or the initial state (step 0).

@@ -16,10 +16,6 @@ void check_served(const RunParams& params);
 /// InputError.
 void check_ahead(const RunParams& params, const models::Model& model);
 
-/// A deck to start from for a model or a catalogued case: a mesh and a method that serve it, data where there is no case. Nothing if
-/// `scene` is neither.
-std::optional<RunParams> starting(const std::string& scene);
-
 /// The fields and points that a deck asks for.
 models::Wanted wanted(const RunParams& params);
 /// Refuses points and fields of `expect/at` and `output/probes` that the model can not have, as far as no mesh is needed to know it. Throws

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "thixis/complementarity/newton.hpp"
+#include "thixis/drive/effort.hpp"
 #include "thixis/drive/params.hpp"
 #include "thixis/models/model.hpp"
 
@@ -20,11 +21,10 @@ struct Progress {
   std::optional<complementarity::Estimate> estimate;
 };
 
-/// How far a solve has come. Behind a restart everything that was done before it counts, too.
-struct Position {
+/// How far a solve has come, with what it took on all levels.
+struct Position : Effort {
   int level = 0;
-  int newton_on_level = 0;                           ///< Newton steps on this level
-  int newton_iterations = 0, linear_iterations = 0;  ///< on all levels
+  int newton_on_level = 0;  ///< Newton steps on this level
 };
 
 /// Who follows a solve; functions may be empty.
@@ -56,6 +56,8 @@ struct Outcome {
   models::Rounding rounding;
   std::optional<models::Contact> contact;
   std::map<std::string, double> at_points;            ///< what `expect/at` asks for, by its names
+  std::vector<models::Expectation> of_model;          ///< what `expect` asks of the model alone
+  std::vector<output::SummaryEntry> summary;          ///< what the model has to say of X
   bool nested = false;                                ///< the level began (also before a restart) from the solution on the one before
   std::optional<complementarity::Estimate> estimate;  ///< at X, where the error is estimated; not if X is not finite
   models::CellEstimates cell_estimates;

@@ -23,7 +23,7 @@ struct Entries {
 /// the columns are these and then the ghosts, by owner and identity.
 struct Numbering {
   algebra::MapPtr rows, columns;
-  std::vector<LocalIndex> entry_of_column;
+  mesh::View<LocalIndex*> entry_of_column;
   mesh::View<LocalIndex*> column_of_entry;  ///< -1: held
   std::vector<LocalIndex> held;             ///< per entry, as its owner says
 };

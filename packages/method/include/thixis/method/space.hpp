@@ -1,169 +1,139 @@
 #pragma once
 #include <Kokkos_Core.hpp>
-#include <algorithm>
-#include <array>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
 
-#include "thixis/algebra/fwd.hpp"
-#include "thixis/core/schema.hpp"
-#include "thixis/mesh/mesh.hpp"
+#include "thixis/mesh/host.hpp"
 #include "thixis/method/graph.hpp"
+#include "thixis/method/layout.hpp"
+#include "thixis/method/params.hpp"
+#include "thixis/method/quadrature.hpp"
 #include "thixis/output/fields.hpp"
-#include "thixis/scene/field.hpp"
 
 namespace thixis::method {
 
-enum class MethodName { fem, dg, hho, fv };
-std::string to_text(MethodName name);  ///< as in the deck
-enum class Nodes { gauss_lobatto, equispaced, bernstein };
+/// The family of nodes that the deck asks for.
+reference::Family family(Nodes nodes);
 
-/// dG: theta = 1 or -1 in A_h.
-enum class Variant { sipg, nipg };
-/// How dG takes Dirichlet data: by the forms on the boundary, or by fixed nodes.
-enum class BoundaryTreatment { weak, strong };
-/// What h is in the stabilization of HHO.
-enum class StabilizationLength { face, cell };
-
-/// Block `method` of the deck.
-struct MethodParams {
-  MethodName name = MethodName::fem;
-  int degree = 1;
-  Nodes nodes = Nodes::gauss_lobatto;
-  int quadrature_order = 0;  ///< 0: 2 degree + 4; never below 2 degree
-  Variant variant = Variant::sipg;
-  double penalty = 10;  ///< eta in eta p²/|F|
-  BoundaryTreatment boundary = BoundaryTreatment::weak;
-  std::optional<bool> condensation;  ///< not given: hho only
-  double stabilization = 10;         ///< kappa
-  StabilizationLength stabilization_length = StabilizationLength::face;
-  static const core::Schema<MethodParams>& schema();
-  int order() const { return quadrature_order > 0 ? std::max(quadrature_order, 2 * degree) : 2 * degree + 4; }
-  bool symmetric() const { return name != MethodName::dg || variant == Variant::sipg; }
-  /// Unknowns inside a cell are eliminated from the linear systems.
-  bool condensed() const { return condensation.value_or(name == MethodName::hho); }
+/// Where a space takes Dirichlet data: one flag per tag of the mesh and component, c tag + i. `level_set` (may be null): curves across
+/// which data jump.
+struct SpaceOptions {
+  std::vector<bool> dirichlet;
+  scene::FieldPtr level_set;
+  MethodParams params;
+  int components = 1;
 };
 
-/// What one scalar field does on the boundary: for each tag of the mesh a value g (Dirichlet) or t = mu du/dn (Neumann); the other is null.
-struct BoundaryValues {
-  std::vector<scene::FieldPtr> dirichlet, neumann;
-};
-
-/// Gradient of a known function.
-using Gradient = std::array<scene::FieldPtr, 2>;
-
-/// All coefficients of a discrete function that this rank needs: unknowns, Dirichlet values and ghosts, in a numbering of the space.
-using Coefficients = Kokkos::View<double*>;
-
-/// Local matrices: (cell, i, j).
-using LocalMatrices = Kokkos::View<double***, Kokkos::LayoutRight>;
-
-/// A form as a sum over cells, a(u, v) = sum_K a_K(u, v).
-class CellForm {
- public:
-  virtual ~CellForm() = default;
-  /// A(e, i, j) = a_K(psi_j, psi_i) for the patch cell first + e and its unknowns in the order of Space::elements(); overwrites A.
-  virtual void matrices(LocalIndex first, const LocalMatrices& A) const = 0;
-};
-
-/// A discrete space for a scalar field u on one mesh, with the form a(u,v) that stands for (mu grad u, grad v) on it and the pairing of
-/// the multiplier with the gap. Scenes are built from it; they know no basis function.
+/// Functions on one mesh that are polynomials of degree p in every cell, of one or more components: lays out their unknowns, and the
+/// pairing of a multiplier with the gap. Equations are Forms on it (thixis/method/form.hpp); scenes know no basis function.
 ///
 /// **Contact points** are the first unknowns of each rank (all of them, but for methods that have unknowns on faces besides): gap and
 /// multiplier have one value for each of their basis functions psi_l.
 class Space {
  public:
-  virtual ~Space() = default;
+  /// `structure`: of all components. The mesh must outlive the space. Collective.
+  Space(const mesh::Mesh& mesh, const SpaceOptions& options, Structure structure, std::unique_ptr<const Layout> layout);
+  ~Space();
+  Space(const Space&) = delete;
+  Space& operator=(const Space&) = delete;
 
-  virtual const mesh::Mesh& mesh() const = 0;
-  virtual algebra::MapPtr map() const = 0;     ///< of the unknowns; Dirichlet values are none
-  virtual algebra::MapPtr points() const = 0;  ///< of the contact points; map() itself where all unknowns are such
+  const mesh::Mesh& mesh() const { return mesh_; }
+  const mesh::HostMesh& host() const { return host_; }  ///< the mesh where the host can read it
+  const SpaceOptions& options() const { return options_; }
+  int components() const { return options_.components; }
+  algebra::MapPtr map() const { return numbering_.rows; }  ///< of the unknowns; Dirichlet values are none
+  algebra::MapPtr points() const { return points_; }       ///< of the contact points; map() itself where all unknowns are such
   /// The identity of each unknown of this rank, in the order of map(): >= 0, different for different unknowns of the space, and, unlike
   /// the numbers of map(), the same on any number of ranks, so that a checkpoint can name them. From the ids of mesh entities, with
   /// n unknowns per entity: n id + k for the k-th one of it; kinds of entities follow each other (vertices, faces, cells), each range
   /// beginning where that of all entities before ends. k is counted along what does not depend on the ranks either: along a face from
   /// its lower to its higher vertex id, in a cell by its basis. Ids of Dirichlet nodes are not used.
-  virtual std::vector<GlobalIndex> unknown_ids() const = 0;
-  virtual algebra::GraphPtr graph() const = 0;  ///< couplings of a(.,.): columns sorted, those of this rank first
-  virtual Teuchos::RCP<const algebra::MultiVector> coordinates() const = 0;  ///< two columns, of the unknowns' places
-
-  /// D_l > 0 with <lambda, psi_l> = D_l X3_l, on points(): (psi_l, 1) for nodal multipliers, 1 for moments.
-  virtual const algebra::Vector& pairing() const = 0;
-  virtual bool nodal_multiplier() const = 0;
-  virtual bool symmetric() const { return true; }  ///< a(u, v) = a(v, u)
-
-  /// S_lm = a(psi_m, psi_l) on the unknowns.
-  virtual algebra::MatrixPtr stiffness(const scene::Field& tension) const = 0;
-
+  std::vector<GlobalIndex> unknown_ids() const;
+  const algebra::GraphPtr& graph() const { return graph_; }      ///< couplings of forms: columns sorted, those of this rank first
+  Teuchos::RCP<const algebra::MultiVector> coordinates() const;  ///< two columns, of the unknowns' places
   /// For condensation: columns of graph() of the unknowns of each patch cell, -1 for Dirichlet values; the first interior() of them belong
   /// to this cell alone.
-  virtual const ElementUnknowns& elements() const = 0;
-  virtual int interior() const = 0;
-  /// The part of a(.,.) that is a sum over cells: all of it where interior() > 0.
-  virtual std::shared_ptr<const CellForm> cell_form(const scene::Field& tension) const = 0;
+  const ElementUnknowns& elements() const { return elements_; }
+  int interior() const { return structure_.interior; }
+  const ElementUnknowns& coupled() const { return coupled_; }  ///< columns of Structure::coupled_entries
 
-  // The L² product of the functions in the cells, exactly: the mass of unknowns on faces is 0.
-  /// M_lm = (psi_m, psi_l), on graph() like the stiffness.
-  virtual algebra::MatrixPtr mass() const = 0;
-  /// factor a_K(u, v) + weight (u, v)_K, cell by cell; `form` null: the mass alone.
-  virtual std::shared_ptr<const CellForm> with_mass(const std::shared_ptr<const CellForm>& form, double factor, double weight) const = 0;
-  /// y_l = (w, psi_l).
-  virtual void apply_mass(const Coefficients& w, algebra::Vector& y) const = 0;
+  /// From now on integrals of data follow the curves across which these jump at time t: loads, moments of multipliers, errors. Collective;
+  /// throws InputError as make_quadrature does.
+  void move_interface(double t);
 
-  /// From now on integrals of data follow the curves across which these jump at time t: loads, moments of multipliers, errors. Forms with
-  /// varying tensions made before keep their quadrature. Collective; throws InputError as make_quadrature does.
-  virtual void move_interface(double t) = 0;
-
-  /// Coefficients of the lift of the Dirichlet data: what they fix, 0 elsewhere.
-  virtual Coefficients lift(const BoundaryValues& boundary, double t) const = 0;
-  /// F_l = (f, psi_l) + <t, psi_l> over the Neumann boundary + what weakly imposed Dirichlet data give.
-  virtual void load(const scene::Field& tension, const scene::Field& force, const BoundaryValues& boundary, double t,
-                    algebra::Vector& F) const = 0;
-  /// y_l = a(u, psi_l), evaluated cell by cell without the assembled matrix.
-  virtual void forces(const scene::Field& tension, const Coefficients& u, algebra::Vector& y) const = 0;
-
+  // -- functions --------------------------------------------------------------------------------------------------------------------
+  bool conforming() const { return layout_->conforming(); }  ///< whether they are continuous
+  /// q: fluxes of forms lie in RT_q, as functions test against P_q in the cells and on the faces.
+  int flux_degree() const { return layout_->flux_degree(basis_.degree()); }
+  /// Coefficients of the lift of the Dirichlet data: what they fix, 0 elsewhere. Collective.
+  Coefficients lift(const BoundaryValues& boundary, double t) const { return layout_->lift(*this, boundary, t); }
   /// u + lift: a collective operation (ghost values are fetched).
-  virtual Coefficients complete(const algebra::Vector& u, const Coefficients& lift) const = 0;
+  Coefficients complete(const algebra::Vector& u, const Coefficients& lift) const;
+  algebra::Vector with_ghosts(const algebra::Vector& u) const;  ///< on the columns of graph(). Collective.
   /// The inverse: the unknowns' part.
-  virtual void restrict_to_unknowns(const Coefficients& u, algebra::Vector& values) const = 0;
-  /// The interpolant of a function: nodal in the cells, projected on faces.
-  virtual void interpolate(const scene::Field& u, double t, algebra::Vector& values) const = 0;
+  void restrict_to_unknowns(const Coefficients& u, algebra::Vector& values) const;
+  /// The interpolant of a function: nodal in the cells, projected on faces. Collective.
+  void interpolate(const Function& u, double t, algebra::Vector& values) const;
   /// The coefficients of an obstacle: of its interpolant, and where it jumps inside a cell of what thixis/method/jumps.hpp makes of that.
-  virtual void interpolate_obstacle(const scene::Field& psi, algebra::Vector& values) const = 0;
-  /// Evaluates a function of the next coarser space of the hierarchy in this one. Collective.
-  virtual void prolongate(const Space& coarse, const Coefficients& coarse_u, algebra::Vector& values) const = 0;
+  void interpolate_obstacle(const scene::Field& psi, algebra::Vector& values) const;
 
-  // The multiplier, X3 on points().
+  // -- functionals ------------------------------------------------------------------------------------------------------------------
+  /// F(l) += (f, psi_l) for the cells' basis functions; F is on map() or points(). Throws on this rank only.
+  void add_moments(const Function& f, double t, algebra::Vector& F) const;
+  /// F(l) += <t, trace of psi_l> over the faces whose tag has a function. Throws on this rank only.
+  void add_traces(const std::vector<scene::FieldPtr>& by_tag, double t, algebra::Vector& F) const {
+    layout_->add_traces(*this, by_tag, t, F);
+  }
+  /// Shares a functional R out to the cells: moments(k, l) = (r, psi_l)_K on patch cell k, so that the sum over the cells of each unknown
+  /// is R_l; an unknown that cells share gives each of them the same part, one on a face by its test function there. Collective.
+  void share(const algebra::Vector& R, const View<double**>& moments) const { layout_->share(*this, R, moments); }
+
+  // -- the multiplier, X3 on points(), of scalar spaces -----------------------------------------------------------------------------
+  /// D_l > 0 with <lambda, psi_l> = D_l X3_l, on points(): (psi_l, 1) for nodal multipliers, 1 for moments.
+  const algebra::Vector& pairing() const { return *pairing_; }
+  bool nodal_multiplier() const { return layout_->nodal_multiplier(); }
   /// lambda_h as a function: the nodal values, or sum_l X3_l Theta_l in the dual basis, moments at fixed nodes being 0. Collective.
-  virtual Coefficients multiplier(const algebra::Vector& X3) const = 0;
-  /// X3 of a known function: its nodal values or moments.
-  virtual void interpolate_multiplier(const scene::Field& lambda, double t, algebra::Vector& X3) const = 0;
-  /// X3 of the function lambda_h of the next coarser space. Collective.
-  virtual void prolongate_multiplier(const Space& coarse, const algebra::Vector& coarse_X3, algebra::Vector& X3) const = 0;
+  Coefficients multiplier(const algebra::Vector& X3) const;
+  /// X3 of a known function: its nodal values or moments. Collective.
+  void interpolate_multiplier(const scene::Field& lambda, double t, algebra::Vector& X3) const;
 
-  /// ∫ mu |grad u_h|² and ∫ mu |grad u - grad u_h|² over the whole mesh, cell by cell. Collective.
-  virtual double energy(const scene::Field& tension, const Coefficients& u) const = 0;
-  virtual double energy_error(const scene::Field& tension, const Coefficients& u, const Gradient& exact, double t) const = 0;
-  /// ∫ (u - u_h)² over the whole mesh. Collective.
-  virtual double l2_error(const Coefficients& u, const scene::Field& exact, double t) const = 0;
-  /// max(max(obstacle - u_h, 0)) over all points of all cells, to a few per cent (a lattice of 8p points a side). `obstacle` null: zero.
-  virtual double penetration(const Coefficients& u, const scene::Field* obstacle, double t) const = 0;
+  // -- what forms and error estimates read ------------------------------------------------------------------------------------------
+  const reference::CellBasis& basis() const { return basis_; }
+  const View<const LocalIndex*>& cells() const { return cells_; }         ///< patch cells, the owned ones first
+  LocalIndex position(LocalIndex cell) const { return position_[cell]; }  ///< among them, -1 for others
+  const CellQuadrature& quadrature() const { return quadrature_; }        ///< on them
+  const Structure& coefficients() const { return structure_; }
+  const Numbering& numbering() const { return numbering_; }
+  const Layout& layout() const { return *layout_; }
+  /// Values at the places of these entries. Throws on this rank only.
+  std::vector<double> at_entries(const scene::Field& field, const std::vector<LocalIndex>& entries, double t) const;
 
-  /// For output. `shown`: u_h at the points of the display; `coefficients_shown`: the coefficient that belongs to each point. Ghosts may be
-  /// 0.
-  virtual output::Grid display() const = 0;  ///< triangles with one point per coefficient of the cells' polynomials
-  virtual std::vector<double> shown(const Coefficients& u) const = 0;
-  virtual std::vector<double> coefficients_shown(const Coefficients& u) const = 0;
+  // -- for output -------------------------------------------------------------------------------------------------------------------
+  /// Triangles with one point per coefficient of the polynomials, of one component, in the cells.
+  output::Grid display() const;
+  /// u_h at the points of the display, and the coefficient that belongs to each point. Ghosts may be 0.
+  std::vector<double> shown(const Coefficients& u, int component = 0) const;
+  std::vector<double> coefficients_shown(const Coefficients& u, int component = 0) const;
+
+ private:
+  const mesh::Mesh& mesh_;
+  mesh::HostMesh host_;
+  SpaceOptions options_;
+  std::unique_ptr<const Layout> layout_;
+  reference::CellBasis basis_;
+  Structure structure_;
+  Numbering numbering_;
+  View<const LocalIndex*> cells_;
+  std::vector<LocalIndex> position_;
+  CellQuadrature quadrature_;
+  ElementUnknowns elements_, coupled_;
+  algebra::GraphPtr graph_;
+  algebra::MapPtr points_;
+  Teuchos::RCP<const algebra::Vector> pairing_;
 };
 
-/// Where a space takes Dirichlet data: one flag per tag of the mesh. `level_set` (may be null): curves across which data jump.
-struct SpaceOptions {
-  std::vector<bool> dirichlet;
-  scene::FieldPtr level_set;
-  MethodParams params;
-};
 using SpaceFactory = std::function<std::unique_ptr<Space>(const mesh::Mesh&, const SpaceOptions&)>;
 /// Throws InputError, on all ranks, for a mesh on which the method can not be trusted. Collective. May be empty.
 using MeshCheck = std::function<void(const mesh::Mesh&, const SpaceOptions&)>;

@@ -1,22 +1,22 @@
 #pragma once
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "thixis/complementarity/active_set.hpp"
-#include "thixis/complementarity/estimate.hpp"
-#include "thixis/complementarity/kkt.hpp"
-#include "thixis/complementarity/problem.hpp"
 #include "thixis/mesh/build.hpp"
 #include "thixis/models/model.hpp"
-#include "thixis/output/checkpoint.hpp"
-#include "thixis/output/fields.hpp"
 
 namespace thixis::models {
 
-/// A step ]begin, end] of backward Euler, in the unit of time of the deck.
+/// How a scene goes from u^{n-1} to u^n in a step of length tau. Backward Euler: d_t u(t_n) = rate(tau) (u^n - u^{n-1}), and all else is
+/// taken at t_n; first order.
+struct TimeScheme {
+  const char* name = "backward Euler";
+  double rate(double tau) const { return 1 / tau; }
+};
+
+/// A step ]begin, end], in the unit of time of the deck.
 struct TimeStep {
   double begin = 0, end = 0;
   double length() const { return end - begin; }
@@ -24,7 +24,7 @@ struct TimeStep {
 
 /// What is conserved: by how much the steps so far have missed it, relative (docs/methods/two_phase.md).
 struct Balance {
-  std::string name;       ///< of the component: water, hydrogen
+  std::string name;       ///< of the component
   double of_step = 0;     ///< defect of the last step
   double worst_step = 0;  ///< the largest of all steps
   double total = 0;       ///< of the sum over all steps
@@ -44,92 +44,52 @@ struct Objection {
   explicit operator bool() const { return !why.empty(); }
 };
 
-/// What a scene must bring to the next step beside X.
-struct EvolutionState {
-  std::vector<output::CheckpointBlock> blocks;
-  std::map<std::string, double> attributes;  ///< sums over the steps so far
-};
-
 /// A scene in time on its mesh: X^0, and X^n from X^{n-1} step by step. All members are collective.
 ///
 ///     X = initial();
 ///     for each step:  begin(step, X_before);  solve problem() with any number of looks at estimate(X);  accept(X)
 ///
 /// A step that fails is begun again, shorter, from the same X_before: nothing of it is kept. Before anything else is asked of X_before,
-/// `give_up` returns to it.
-class Evolution {
+/// `give_up` returns to it. `save` and `restore` take the sums over the steps with them.
+class Evolution : public SceneOnMesh {
  public:
-  virtual ~Evolution() = default;
-
-  virtual const core::Comm& comm() const = 0;
-  virtual GlobalIndex cells() const = 0;
-  virtual Sizes sizes() const = 0;  ///< of each step
-
   /// X^0 at time 0; its multipliers may be 0.
   virtual Teuchos::RCP<algebra::Vector> initial() = 0;
   /// Times at which data jump, in the unit of the deck: steps end there.
   virtual std::vector<double> jumps() const { return {}; }
   /// Throws InputError where data of one of these times leave no solution, as far as that shows without solving. Cheap.
   virtual void check(const std::vector<double>&) const {}
+
   /// Sets up problem() for a step. What does not depend on the length of the step or on the data at its end is kept.
   virtual void begin(const TimeStep& step, const algebra::Vector& before) = 0;
-  /// Of the step begun.
-  virtual complementarity::Problem& problem() = 0;
   /// To what rounding lets the residual of the step begun fall: a nonlinear solver is not asked for less.
   virtual double round_off() const { return 0; }
   /// A better start for Newton's method than X^{n-1}, from the steps before; false: there is none, X is left as it was.
   virtual bool predict(algebra::Vector&) { return false; }
-
-  /// The share of the step begun in the bound on the error over all time, at any X of the step: sqrt of an integral over the step. What it
-  /// needs of the mesh is set up at the first call; a run that never asks pays nothing. Throws InputError where the scene has no bound.
-  virtual complementarity::Estimate estimate(const algebra::Vector& X) = 0;
-  virtual CellEstimates cell_estimates() const = 0;                     ///< of the last call of `estimate`
-  virtual std::optional<StepErrors> step_errors() const { return {}; }  ///< likewise; nothing where they are not known apart
-
+  /// The parts of the last estimate; nothing where they are not known apart.
+  virtual std::optional<StepErrors> step_errors() const { return {}; }
   /// Whether X, which solves the step for the nonlinear solver, may end it. `tolerance`: of the verifier; `conditions`: whether balances
   /// and contact conditions count, which the rule adaptive leaves open.
   virtual Objection objection(const algebra::Vector&, double /*tolerance*/, bool /*conditions*/) { return {}; }
   /// What the log should say of the step that was estimated, in a sentence; empty: nothing.
   virtual std::string remark() const { return {}; }
-
   /// The step begun is given up, also where `begin` has thrown: the data are those of X_before again.
   virtual void give_up() {}
-
   /// The step ends with X. If `estimate` was called since begin(), its last call was at X, and the bound so far takes it in.
   virtual void accept(const algebra::Vector& X) = 0;
 
   // Over ]0, t_n], the steps accepted.
-  virtual std::optional<double> energy_error() const { return {}; }  ///< if the exact solution is known
-  /// Of the step begun alone, if it ended with X: what `estimate` bounds.
-  virtual std::optional<double> step_energy_error(const algebra::Vector&) const { return {}; }
+  virtual std::optional<double> error_so_far() const { return {}; }                        ///< if the exact solution is known
   virtual std::optional<complementarity::Estimate> estimate_so_far() const { return {}; }  ///< where every step was estimated
   /// Whether no step accepted so far, also before a checkpoint, went without its estimate.
   virtual bool every_step_estimated() const { return true; }
-  /// What keeps it from being guaranteed, a clause each.
-  virtual std::vector<std::string> doubts() const { return {}; }
   /// What estimate_so_far() is, in words before a number.
   virtual std::string bound_name() const { return "energy error at most"; }
   virtual std::vector<Balance> balances() const { return {}; }
 
-  // Of X at the end of a step, or of X^0.
-  virtual double energy_norm(const algebra::Vector&) const { return 0; }
-  virtual complementarity::KktData kkt_data(const algebra::Vector& X) const = 0;
-  virtual std::optional<double> front(const algebra::Vector&) const { return {}; }
-  virtual std::optional<Contact> contact(const algebra::Vector&) const { return {}; }
-  /// The fields of Model::point_fields at points, [probe][field], on all ranks. Collective.
-  virtual std::vector<double> values_at(const std::vector<Probe>&, const algebra::Vector&) const { return {}; }
   /// Columns of series.csv behind the time, and their values.
   virtual std::vector<std::string> series_names() const { return {}; }
   virtual std::vector<double> series(const algebra::Vector&) const { return {}; }
-  virtual output::Grid grid() const = 0;
-  /// The fields that the model can show, by name; `names` empty: all.
-  virtual std::vector<output::FieldData> fields(const algebra::Vector& X, const complementarity::ActiveSet& active,
-                                                const std::vector<std::string>& names) const = 0;
-
-  /// Everything that steps after X depend on, by ids that do not depend on the number of ranks.
-  virtual EvolutionState save(const algebra::Vector& X) const = 0;
-  /// The X that was saved, exactly, and the sums that go with it. Throws InputError if it belongs to another scene, mesh or method.
-  virtual Teuchos::RCP<algebra::Vector> restore(const output::StoredCheckpoint& stored) = 0;
 
   /// Refines the cells with these ids; X is then what it was on the finer mesh. For scenes whose `hierarchy` is not null.
   virtual const mesh::Hierarchy* hierarchy() const { return nullptr; }

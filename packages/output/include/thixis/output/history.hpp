@@ -19,15 +19,16 @@ struct HistoryRow {
   std::optional<GlobalIndex> active, changed;  ///< contact points
   std::optional<double> residual;
   std::optional<double> eta_disc, eta_lin, eta_alg, eta_total;
-  std::optional<double> eta_time;  ///< how much of eta_disc shorter steps would take away
+  std::optional<double> eta_time;      ///< how much of eta_disc shorter steps would take away
   std::optional<std::string> promise;  ///< what eta_total promises, in words
   std::optional<double> energy_error;
   std::optional<double> seconds;  ///< since the start of the run; behind a restart with those spent before it
 };
 
 /// The file `history.csv`: the header
-/// `level,time_step,time,newton,linear,active,changed,residual,eta_disc,eta_lin,eta_alg,eta_total,eta_time,promise,energy_error,seconds`, then one
-/// line per row, in the file as soon as append() returns. Numbers read back as they were (`nan`, `inf` for those that are not finite).
+/// `level,time_step,time,newton,linear,active,changed,residual,eta_disc,eta_lin,eta_alg,eta_total,eta_time,promise,energy_error,seconds`,
+/// then one line per row, in the file as soon as append() returns. Numbers read back as they were (`nan`, `inf` for those that are not
+/// finite).
 class History {
  public:
   /// Overwrites the file. A history that is not enabled writes nothing and touches no file. Collective; throws FileError on all ranks.

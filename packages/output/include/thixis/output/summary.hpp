@@ -1,6 +1,4 @@
 #pragma once
-#include <memory>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <utility>
@@ -27,17 +25,11 @@ struct SummaryTime {
   double end = 0;           ///< key `time_end`: the end of the last step, in the unit of the deck
 };
 
-/// By how much the steps of a two-phase flow missed the balance of a component, relative.
-struct SummaryBalance {
-  std::string component;  ///< water, hydrogen
-  double worst_step = 0;  ///< key: the component
-  double total = 0;       ///< of the sum over all steps; key: the component with `_total`
-};
-
-/// What a two-phase flow adds.
-struct SummaryFlow {
-  std::vector<SummaryBalance> mass_balance;
-  std::optional<double> front;  ///< none: no gas
+/// What only one model has to say: a number, or an object of numbers.
+struct SummaryEntry {
+  std::string key;
+  std::optional<double> value;                        ///< none: null
+  std::vector<std::pair<std::string, double>> parts;  ///< of the object, if there are any
 };
 
 /// What a run says about itself: the object of `summary.json`, members in the order of its keys. What does not exist is null, and so is
@@ -67,15 +59,12 @@ struct Summary {
     std::optional<double> infeasible, negative, complementary, between_nodes, equilibrium;
   } kkt;
   std::optional<GlobalIndex> active_points;
-  std::optional<SummaryFlow> flow;  ///< keys `mass_balance`, `front`, which other models do not have
   struct {
     double total = 0, mesh = 0, assembly = 0, preconditioner = 0, linear = 0, estimate = 0, output = 0;
   } time;                ///< seconds
   double memory_mb = 0;  ///< sum over the ranks
   std::vector<std::pair<std::string, std::string>> versions;
-
-  /// An object whose keys follow those above: what only this model has to say. It must not repeat a key (Error, code `internal`).
-  std::shared_ptr<const nlohmann::ordered_json> extra;
+  std::vector<SummaryEntry> of_model;  ///< they must not repeat a key (Error, code `internal`)
 
   bool enabled = true;  ///< write() does something
 

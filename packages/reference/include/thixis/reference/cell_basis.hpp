@@ -35,6 +35,12 @@ class CellBasis {
 
   /// psi_l = sum_k C_kl B_k: Bernstein coefficients of u are C c.
   const std::vector<double>& to_bernstein() const { return to_bernstein_; }
+  void to_bernstein(const double* c, double* bernstein) const {
+    for (int k = 0; k < size(); ++k) {
+      bernstein[k] = 0;
+      for (int l = 0; l < size(); ++l) bernstein[k] += to_bernstein_[k * size() + l] * c[l];
+    }
+  }
   const Bernstein& bernstein() const { return bernstein_; }
 
   const std::vector<double>& integrals() const { return integrals_; }  ///< (psi_l, 1) on the reference triangle; they sum to 1/2

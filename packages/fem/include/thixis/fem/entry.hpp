@@ -1,0 +1,9 @@
+#pragma once
+#include "thixis/method/method.hpp"
+
+namespace thixis::fem {
+
+/// What the program knows of this method.
+method::Method entry();
+
+}  // namespace thixis::fem
