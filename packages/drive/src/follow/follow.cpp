@@ -26,7 +26,9 @@ Observer Follow::observer() {
 
 bool Follow::save(const Position& at, const models::Discretization& discretization, const algebra::Vector& X) const {
   const core::Region region("output");
-  return checkpoint_.write(discretization, X, at.level, stored_by(at, written()));
+  auto of_run = stored_by(at, written());
+  of_run["cells"] = static_cast<double>(discretization.cells());  // which check_restart compares
+  return checkpoint_.write(discretization, X, at.level, std::move(of_run));
 }
 
 void Follow::begin_level(const mesh::Mesh& mesh, int level, const models::Sizes& sizes) const {

@@ -55,7 +55,6 @@ bool CheckpointFile::write(const models::SceneOnMesh& scene, const algebra::Vect
   output::Checkpoint checkpoint = frame_;
   checkpoint.level = level;
   checkpoint.attributes = std::move(of_run);
-  checkpoint.attributes["cells"] = static_cast<double>(scene.cells());
   checkpoint.attributes["seconds"] = comm.max(checkpoint.attributes["seconds"]);
   checkpoint.attributes.merge(state.attributes);
   checkpoint.blocks = std::move(state.blocks);
