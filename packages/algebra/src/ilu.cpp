@@ -16,7 +16,7 @@ class Ilu : public Preconditioner {
  public:
   explicit Ilu(const LinearParams& params) : params_(params) {}
 
-  void set_matrix(const Teuchos::RCP<const Matrix>& A, int, const Teuchos::RCP<const MultiVector>&) override {
+  void set_matrix(const Teuchos::RCP<const Matrix>& A, int, const Nodes&) override {
     const bool new_graph = values_.is_null() || values_->getCrsGraph().get() != A->getCrsGraph().get();
     if (new_graph) create(*A);
     Kokkos::deep_copy(values_->getLocalMatrixDevice().values, A->getLocalMatrixDevice().values);

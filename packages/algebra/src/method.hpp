@@ -16,7 +16,7 @@ class Preconditioner {
  public:
   virtual ~Preconditioner() = default;
   /// Collective. Numeric set-up for the values of A; symbolic, too, if the graph is another one than last time. Throws Breakdown.
-  virtual void set_matrix(const Teuchos::RCP<const Matrix>& A, int fields, const Teuchos::RCP<const MultiVector>& coordinates) = 0;
+  virtual void set_matrix(const Teuchos::RCP<const Matrix>& A, int fields, const Nodes& nodes) = 0;
   virtual Teuchos::RCP<const Operator> inverse() const = 0;
   virtual int symbolic_setups() const = 0;
 };

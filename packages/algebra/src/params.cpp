@@ -10,13 +10,15 @@ const core::Schema<LinearParams>& LinearParams::schema() {
                   "Krylov method, or a direct solver (LU on one rank); cg needs a symmetric positive definite system: form 'reduced'.")
           .choice("form", &P::form, {{"full", SystemForm::full}, {"reduced", SystemForm::reduced}},
                   "Solve for all unknowns and the multiplier together, or for what is left after the contact conditions are eliminated.")
-          .choice(
-              "preconditioner", &P::preconditioner,
-              {{"none", PreconditionerKind::none},
-               {"ilu", PreconditionerKind::ilu},
-               {"ilut", PreconditionerKind::ilut},
-               {"muelu", PreconditionerKind::muelu}},
-              "Incomplete LU by level or by fill, or algebraic multigrid (smoothed aggregation; form 'reduced'); a direct solver has none.")
+          .choice("preconditioner", &P::preconditioner,
+                  {{"none", PreconditionerKind::none},
+                   {"ilu", PreconditionerKind::ilu},
+                   {"ilut", PreconditionerKind::ilut},
+                   {"multigrid", PreconditionerKind::multigrid},
+                   {"muelu", PreconditionerKind::muelu}},
+                  "Incomplete LU by level or by fill, multigrid on the levels of the mesh, or by aggregation (MueLu), both for the form "
+                  "'reduced'; "
+                  "a direct solver has none.")
           .parameter("ilu level", &P::ilu_level, core::between(0, 10), "Level of fill of 'ilu': 0 keeps the pattern of the matrix.")
           .parameter("overlap", &P::overlap, core::between(0, 10),
                      "Layers of rows that neighbouring ranks share in 'ilu' and 'ilut'; without effect on one rank.")
@@ -28,7 +30,8 @@ const core::Schema<LinearParams>& LinearParams::schema() {
                      "Krylov iterations between two looks at the iterate, where the stopping rule asks for the error estimate.")
           .check([](const P& p, core::Problems& problems) {
             if (p.solver == SolverKind::cg && p.preconditioner == PreconditionerKind::ilut)
-              problems.add("preconditioner", "cg needs a symmetric preconditioner: write 'ilu' or 'muelu', or the solver 'gmres'.");
+              problems.add("preconditioner",
+                           "cg needs a symmetric preconditioner: write 'multigrid', 'muelu' or 'ilu', or the solver 'gmres'.");
           });
   return schema;
 }

@@ -6,7 +6,8 @@
 #include "ilu.hpp"
 #include "krylov/cg.hpp"
 #include "krylov/gmres.hpp"
-#include "multigrid/multigrid.hpp"
+#include "multigrid/aggregation.hpp"
+#include "multigrid/hierarchy.hpp"
 #include "thixis/algebra/tpetra.hpp"
 #include "thixis/core/assert.hpp"
 #include "thixis/core/error.hpp"
@@ -51,6 +52,8 @@ std::unique_ptr<Preconditioner> make_preconditioner(const LinearParams& params) 
     case PreconditionerKind::ilut:
       return make_ilu(params);
     case PreconditionerKind::muelu:
+      return make_aggregation();
+    case PreconditionerKind::multigrid:
       return make_multigrid();
     case PreconditionerKind::none:
       break;
@@ -67,36 +70,37 @@ struct Solver::Impl {
   std::string failure;  ///< why no system with this matrix can be solved
   double seconds = 0;
 
-  void set_up(int fields, const Teuchos::RCP<const MultiVector>& coordinates);
+  void set_up(int fields, const Nodes& nodes);
 };
 
 Solver::Solver(const LinearParams& params) : impl_(std::make_unique<Impl>()) {
   if (params.solver == SolverKind::cg && params.preconditioner == PreconditionerKind::ilut)
-    throw core::InputError("linear/preconditioner: cg needs a symmetric preconditioner: write 'ilu' or 'muelu', or the solver 'gmres'.");
+    throw core::InputError(
+        "linear/preconditioner: cg needs a symmetric preconditioner: write 'multigrid', 'muelu' or 'ilu', or the solver 'gmres'.");
   impl_->method = make_method(params);
   impl_->preconditioner = make_preconditioner(params);
 }
 
 Solver::~Solver() = default;
 
-void Solver::set_matrix(const Teuchos::RCP<const Matrix>& A, int fields, const Teuchos::RCP<const MultiVector>& coordinates) {
+void Solver::set_matrix(const Teuchos::RCP<const Matrix>& A, int fields, const Nodes& nodes) {
   core::Region region("preconditioner");
   core::WithoutFloatingPointTraps quiet;
   const core::Stopwatch watch;
   impl_->A = A;
   impl_->failure.clear();
   try {
-    impl_->set_up(fields, coordinates);
+    impl_->set_up(fields, nodes);
   } catch (const Breakdown& breakdown) {
     impl_->failure = breakdown.what();
   }
   impl_->seconds += watch.seconds();
 }
 
-void Solver::Impl::set_up(int fields, const Teuchos::RCP<const MultiVector>& coordinates) {
+void Solver::Impl::set_up(int fields, const Nodes& nodes) {
   if (A->getGlobalNumRows() == 0) return;
   if (!finite(*A)) throw Breakdown("the matrix holds NaN or infinity");
-  if (preconditioner) preconditioner->set_matrix(A, fields, coordinates);
+  if (preconditioner) preconditioner->set_matrix(A, fields, nodes);
   method->set_matrix(A, preconditioner ? preconditioner->inverse() : Teuchos::null);
 }
 

@@ -58,10 +58,10 @@ struct Fill {
 /// The matrix of the operator itself, of which a single mean is a multiple: nothing is copied.
 class PlainSolver final : public ConstrainedSolver {
  public:
-  PlainSolver(const System& system, double factor, const algebra::LinearParams& params, const Teuchos::RCP<const MultiVector>& coordinates)
-      : A_(system.S.matrix[0]), factor_(factor), solver_(params), coordinates_(coordinates) {}
+  PlainSolver(const System& system, double factor, const algebra::LinearParams& params, const algebra::Nodes& nodes)
+      : A_(system.S.matrix[0]), factor_(factor), solver_(params), nodes_(nodes) {}
 
-  void set_matrix(const Part&, const MultiVector&, const MultiVector&) override { solver_.set_matrix(A_, 1, coordinates_); }
+  void set_matrix(const Part&, const MultiVector&, const MultiVector&) override { solver_.set_matrix(A_, 1, nodes_); }
 
   algebra::LinearReport solve(const Vector& rhs, Vector& y, const algebra::LinearStop& stop) const override {
     Vector b(rhs, Teuchos::Copy);
@@ -87,14 +87,13 @@ class PlainSolver final : public ConstrainedSolver {
   Teuchos::RCP<const algebra::Matrix> A_;
   double factor_;
   algebra::Solver solver_;
-  Teuchos::RCP<const MultiVector> coordinates_;
+  algebra::Nodes nodes_;
 };
 
 class AssembledSolver final : public ConstrainedSolver {
  public:
-  AssembledSolver(const System& system, const Part& part, const algebra::LinearParams& params,
-                  const Teuchos::RCP<const MultiVector>& coordinates)
-      : system_(system), size_(part.size), solver_(params), coordinates_(coordinates), A_(Teuchos::rcp(new algebra::Matrix(make_graph()))) {
+  AssembledSolver(const System& system, const Part& part, const algebra::LinearParams& params, const algebra::Nodes& nodes)
+      : system_(system), size_(part.size), solver_(params), nodes_(nodes), A_(Teuchos::rcp(new algebra::Matrix(make_graph()))) {
     A_->fillComplete();
   }
 
@@ -107,7 +106,7 @@ class AssembledSolver final : public ConstrainedSolver {
     fill.gaps.penalty = penalty.getLocalViewDevice(Tpetra::Access::ReadOnly);
     fill.A = A_->getLocalMatrixDevice();
     Kokkos::parallel_for("thixis::contact::constrained_matrix", Range(0, fill.S[0].numRows()), fill);
-    solver_.set_matrix(A_, size_, coordinates_);
+    solver_.set_matrix(A_, size_, nodes_);
   }
 
   algebra::LinearReport solve(const Vector& rhs, Vector& y, const algebra::LinearStop& stop) const override {
@@ -138,19 +137,19 @@ class AssembledSolver final : public ConstrainedSolver {
   const System& system_;
   int size_;
   algebra::Solver solver_;
-  Teuchos::RCP<const MultiVector> coordinates_;
+  algebra::Nodes nodes_;
   algebra::MatrixPtr A_;
 };
 
 }  // namespace
 
 std::unique_ptr<ConstrainedSolver> make_constrained_solver(const System& system, const Part& part, const algebra::LinearParams& params,
-                                                           const Teuchos::RCP<const MultiVector>& coordinates) {
-  if (system.S.cells) return make_condensed_solver(system, part, params, coordinates);
+                                                           const algebra::Nodes& nodes) {
+  if (system.S.cells) return make_condensed_solver(system, part, params, nodes);
   const TransformedBlocks blocks(system, part);
   if (part.size == 1 && part.gap(0, system.fields() - system.gaps()) < 0 && blocks.frames.uniform() && blocks.matrices == 1)
-    return std::make_unique<PlainSolver>(system, blocks.uniform[0](0, 0), params, coordinates);
-  return std::make_unique<AssembledSolver>(system, part, params, coordinates);
+    return std::make_unique<PlainSolver>(system, blocks.uniform[0](0, 0), params, nodes);
+  return std::make_unique<AssembledSolver>(system, part, params, nodes);
 }
 
 void to_columns(const System& system, const MultiVector& at_rows, MultiVector& at_columns) {

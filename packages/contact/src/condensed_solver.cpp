@@ -1,4 +1,5 @@
 #include "constrained_solver.hpp"
+#include "thixis/algebra/structure.hpp"
 #include "thixis/contact/condensation.hpp"
 
 namespace thixis::contact {
@@ -94,15 +95,14 @@ struct Constrain {
 
 class CondensedSolver final : public ConstrainedSolver {
  public:
-  CondensedSolver(const System& system, const Part& part, const algebra::LinearParams& params,
-                  const Teuchos::RCP<const MultiVector>& coordinates)
+  CondensedSolver(const System& system, const Part& part, const algebra::LinearParams& params, const algebra::Nodes& nodes)
       : system_(system),
         size_(part.size),
         condensation_(algebra::interlaced(system.map(), size_), algebra::interlaced(system.S.matrix[0]->getColMap(), size_),
                       interlaced(cells().elements, size_), size_ * cells().interior,
                       cells().symmetric ? LocalForm::positive_definite : LocalForm::general),
         solver_(params),
-        coordinates_(coordinates_left(*coordinates)) {
+        nodes_(nodes_left(nodes)) {
     if (part.coordinate[part.size - 1] >= system.fields() - system.gaps())
       share_ = share_of_elements(cells().elements, algebra::local_columns(*system.S.matrix[0]));
   }
@@ -125,7 +125,7 @@ class CondensedSolver final : public ConstrainedSolver {
       kernel.A = A;
       Kokkos::parallel_for("thixis::contact::constrain", Range(0, A.extent_int(0)), kernel);
     });
-    solver_.set_matrix(condensation_.matrix(), size_, coordinates_);
+    solver_.set_matrix(condensation_.matrix(), size_, nodes_);
   }
 
   algebra::LinearReport solve(const Vector& rhs, Vector& x, const algebra::LinearStop& stop) const override {
@@ -163,16 +163,29 @@ class CondensedSolver final : public ConstrainedSolver {
         "thixis::contact::left", Range(0, out.extent_int(0)), KOKKOS_LAMBDA(int row) { out(row, 0) = all(original(row), 0); });
   }
 
-  Teuchos::RCP<const MultiVector> coordinates_left(const MultiVector& coordinates) const {
+  /// Of the unknowns that are not eliminated: their places, and the coarser functions there.
+  algebra::Nodes nodes_left(const algebra::Nodes& nodes) const {
     const auto original = condensation_.original_row();
-    const int size = size_, nodes = original.extent_int(0) / size;
-    auto left =
-        Teuchos::rcp(new MultiVector(algebra::contiguous_map(nodes, algebra::comm_of(*system_.map())), coordinates.getNumVectors()));
-    const auto all = coordinates.getLocalViewDevice(Tpetra::Access::ReadOnly);
+    const int size = size_;
+    const Kokkos::View<LocalIndex*> node("thixis::contact::nodes_left", original.extent(0) / size);
+    Kokkos::parallel_for(
+        "thixis::contact::nodes_left", Range(0, node.extent_int(0)),
+        KOKKOS_LAMBDA(int left) { node(left) = original(size * left) / size; });
+    const auto map = algebra::contiguous_map(node.extent_int(0), algebra::comm_of(*system_.map()));
+    algebra::Nodes left = nodes;
+    if (!nodes.coordinates.is_null()) left.coordinates = select(*nodes.coordinates, map, node);
+    if (!nodes.below.empty()) left.below[0] = algebra::select_rows(*nodes.below[0], map, node);
+    return left;
+  }
+
+  static Teuchos::RCP<const MultiVector> select(const MultiVector& values, const algebra::MapPtr& map,
+                                                const Kokkos::View<const LocalIndex*>& selected) {
+    const auto left = Teuchos::rcp(new MultiVector(map, values.getNumVectors()));
+    const auto all = values.getLocalViewDevice(Tpetra::Access::ReadOnly);
     const auto out = left->getLocalViewDevice(Tpetra::Access::OverwriteAll);
     Kokkos::parallel_for(
-        "thixis::contact::coordinates_left", Range(0, nodes), KOKKOS_LAMBDA(int node) {
-          for (int d = 0; d < out.extent_int(1); ++d) out(node, d) = all(original(size * node) / size, d);
+        "thixis::contact::select", Range(0, out.extent_int(0)), KOKKOS_LAMBDA(int row) {
+          for (int d = 0; d < out.extent_int(1); ++d) out(row, d) = all(selected(row), d);
         });
     return left;
   }
@@ -192,7 +205,7 @@ class CondensedSolver final : public ConstrainedSolver {
   int size_;
   Condensation condensation_;
   algebra::Solver solver_;
-  Teuchos::RCP<const MultiVector> coordinates_;
+  algebra::Nodes nodes_;               ///< that are left
   Kokkos::View<const double*> share_;  ///< of penalties, where there are gaps
   std::vector<Matrices> local_;
 };
@@ -200,8 +213,8 @@ class CondensedSolver final : public ConstrainedSolver {
 }  // namespace
 
 std::unique_ptr<ConstrainedSolver> make_condensed_solver(const System& system, const Part& part, const algebra::LinearParams& params,
-                                                         const Teuchos::RCP<const MultiVector>& coordinates) {
-  return std::make_unique<CondensedSolver>(system, part, params, coordinates);
+                                                         const algebra::Nodes& nodes) {
+  return std::make_unique<CondensedSolver>(system, part, params, nodes);
 }
 
 }  // namespace thixis::contact

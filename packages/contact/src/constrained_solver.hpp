@@ -23,9 +23,9 @@ class ConstrainedSolver {
 
 /// The assembled matrix, or its Schur complement where cells are to be condensed. The system must outlive it. Collective.
 std::unique_ptr<ConstrainedSolver> make_constrained_solver(const System& system, const Part& part, const algebra::LinearParams& params,
-                                                           const Teuchos::RCP<const algebra::MultiVector>& coordinates);
+                                                           const algebra::Nodes& nodes);
 std::unique_ptr<ConstrainedSolver> make_condensed_solver(const System& system, const Part& part, const algebra::LinearParams& params,
-                                                         const Teuchos::RCP<const algebra::MultiVector>& coordinates);
+                                                         const algebra::Nodes& nodes);
 
 /// Values at the rows and ghosts of the matrices. Collective.
 void to_columns(const System& system, const algebra::MultiVector& at_rows, algebra::MultiVector& at_columns);

@@ -117,11 +117,10 @@ struct Fill {
 
 class FullSystem final : public LinearizedSystem {
  public:
-  FullSystem(const System& system, const Weights& weights, const algebra::LinearParams& params,
-             const Teuchos::RCP<const MultiVector>& coordinates)
+  FullSystem(const System& system, const Weights& weights, const algebra::LinearParams& params, const algebra::Nodes& nodes)
       : system_(system),
         weights_(weights),
-        coordinates_(coordinates),
+        nodes_(nodes),
         couplings_(system.S),
         places_(make_places()),
         map_(make_map(system.map())),
@@ -149,7 +148,7 @@ class FullSystem final : public LinearizedSystem {
     fill.kappa = read(*weights_.stiffness);
     fill.A = A_->getLocalMatrixDevice();
     Kokkos::parallel_for("thixis::contact::full_system", Range(0, fill.S[0].numRows()), fill);
-    solver_.set_matrix(A_, system_.fields() + system_.gaps(), coordinates_);
+    solver_.set_matrix(A_, system_.fields() + system_.gaps(), nodes_);
   }
 
   algebra::LinearReport solve(const Vector& R, Vector& dX, const algebra::LinearStop& stop) override {
@@ -251,7 +250,7 @@ class FullSystem final : public LinearizedSystem {
 
   const System& system_;
   const Weights& weights_;
-  Teuchos::RCP<const MultiVector> coordinates_;
+  algebra::Nodes nodes_;
   Couplings couplings_;
   Places places_;
   algebra::MapPtr map_;
@@ -263,8 +262,8 @@ class FullSystem final : public LinearizedSystem {
 }  // namespace
 
 std::unique_ptr<LinearizedSystem> make_full_system(const System& system, const Weights& weights, const algebra::LinearParams& params,
-                                                   const Teuchos::RCP<const MultiVector>& coordinates) {
-  return std::make_unique<FullSystem>(system, weights, params, coordinates);
+                                                   const algebra::Nodes& nodes) {
+  return std::make_unique<FullSystem>(system, weights, params, nodes);
 }
 
 }  // namespace thixis::contact

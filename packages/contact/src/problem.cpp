@@ -47,17 +47,16 @@ Weights unit_weights(const System& system) {
 
 }  // namespace
 
-Problem::Problem(std::shared_ptr<const System> system, const algebra::LinearParams& params,
-                 const Teuchos::RCP<const MultiVector>& coordinates)
-    : Problem(system, unit_weights(*system), norm_of_all(*system->load), params, coordinates) {}
+Problem::Problem(std::shared_ptr<const System> system, const algebra::LinearParams& params, const algebra::Nodes& nodes)
+    : Problem(system, unit_weights(*system), norm_of_all(*system->load), params, nodes) {}
 
 Problem::Problem(std::shared_ptr<const System> system, Weights weights, double reference, const algebra::LinearParams& params,
-                 const Teuchos::RCP<const MultiVector>& coordinates)
+                 const algebra::Nodes& nodes)
     : system_(std::move(system)),
       weights_(std::move(weights)),
       reference_(reference),
       params_(params),
-      coordinates_(coordinates),
+      nodes_(nodes),
       map_(map_of_all(*system_)),
       gaps_map_(map_of_gaps(*system_)),
       left_(system_->fields() * size(system_->map())),
@@ -110,8 +109,8 @@ void Problem::insert(const Vector& C, Vector& R) const {
 void Problem::linearize(const Vector&, const Vector& a, const Vector& b) {
   if (!linearized_) {
     const core::Region region("assembly");
-    linearized_ = full() ? make_full_system(*system_, weights_, params_, coordinates_)
-                         : make_reduced_system(*system_, weights_, params_, coordinates_, product_);
+    linearized_ =
+        full() ? make_full_system(*system_, weights_, params_, nodes_) : make_reduced_system(*system_, weights_, params_, nodes_, product_);
   }
   linearized_->linearize(a, b);
 }

@@ -26,8 +26,8 @@ struct Shown {
 
 class ReducedSystem final : public LinearizedSystem {
  public:
-  ReducedSystem(const System& system, const Weights& weights, const algebra::LinearParams& params,
-                const Teuchos::RCP<const MultiVector>& coordinates, const Teuchos::RCP<MultiVector>& room)
+  ReducedSystem(const System& system, const Weights& weights, const algebra::LinearParams& params, const algebra::Nodes& nodes,
+                const Teuchos::RCP<MultiVector>& room)
       : system_(system),
         weights_(weights),
         operator_(system, room),
@@ -36,7 +36,7 @@ class ReducedSystem final : public LinearizedSystem {
         dy_(system.map(), system.fields()),
         force_(system.map(), system.fields()) {
     for (const Part& part : independent_parts(system))
-      pieces_.emplace_back(system, part, make_constrained_solver(system, part, params, coordinates), rhs_, dy_);
+      pieces_.emplace_back(system, part, make_constrained_solver(system, part, params, nodes), rhs_, dy_);
     gaps_.set_diagonal(operator_);
   }
 
@@ -178,9 +178,8 @@ class ReducedSystem final : public LinearizedSystem {
 }  // namespace
 
 std::unique_ptr<LinearizedSystem> make_reduced_system(const System& system, const Weights& weights, const algebra::LinearParams& params,
-                                                      const Teuchos::RCP<const MultiVector>& coordinates,
-                                                      const Teuchos::RCP<MultiVector>& room) {
-  return std::make_unique<ReducedSystem>(system, weights, params, coordinates, room);
+                                                      const algebra::Nodes& nodes, const Teuchos::RCP<MultiVector>& room) {
+  return std::make_unique<ReducedSystem>(system, weights, params, nodes, room);
 }
 
 }  // namespace thixis::contact

@@ -36,7 +36,7 @@ Mass::Mass(const method::Space& space) : space_(space) {
   cg.solver = algebra::SolverKind::cg;
   cg.preconditioner = algebra::PreconditionerKind::ilu;
   solver_ = std::make_unique<algebra::Solver>(cg);
-  solver_->set_matrix(M_, 1, Teuchos::null);
+  solver_->set_matrix(M_, 1);
 }
 
 Mass::~Mass() = default;

@@ -67,7 +67,7 @@ struct FluxLift::Impl {
     algebra::LinearParams direct;
     direct.solver = algebra::SolverKind::direct;
     solver = std::make_unique<algebra::Solver>(direct);
-    solver->set_matrix(A, 1, Teuchos::null);
+    solver->set_matrix(A, 1);
   }
 
   void assemble() {

@@ -19,14 +19,14 @@ void expect_agreement(const LinearParams& p, const MatrixPtr& A, int fields, con
   stop.tolerance = 1e-11 * norm2(b);
 
   Solver direct(params(SolverKind::direct, PreconditionerKind::none));
-  direct.set_matrix(A, fields, xy);
+  direct.set_matrix(A, fields, {xy, {}});
   Vector reference(A->getDomainMap());
   const LinearReport by_direct = direct.solve(b, reference, stop);
   ASSERT_TRUE(by_direct.converged) << by_direct.reason;
   ASSERT_LE(true_residual(*A, b, reference), 1e-12 * norm2(b));
 
   Solver solver(p);
-  solver.set_matrix(A, fields, xy);
+  solver.set_matrix(A, fields, {xy, {}});
   Vector x(A->getDomainMap());
   x.putScalar(0.5);
   const LinearReport report = solver.solve(b, x, stop);
@@ -66,7 +66,7 @@ TEST_P(PoissonSolvers, solve_systems_of_one_row) { expect_agreement(GetParam(), 
 TEST_P(PoissonSolvers, know_that_a_system_without_rows_is_solved) {
   Solver solver(GetParam());
   const MatrixPtr A = matrix(node_map(0, 1), poisson(0));
-  solver.set_matrix(A, 1, coordinates(0));
+  solver.set_matrix(A, 1, {coordinates(0), {}});
   Vector b(A->getRangeMap()), x(A->getDomainMap());
   const LinearReport report = solver.solve(b, x, LinearStop());
   EXPECT_TRUE(report.converged);

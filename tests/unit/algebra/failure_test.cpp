@@ -26,7 +26,7 @@ struct Case {
     b.putScalar(value_of_b);
     x.putScalar(1);
     Solver solver(p);
-    solver.set_matrix(A, fields, Teuchos::null);
+    solver.set_matrix(A, fields);
     LinearStop stop;
     stop.tolerance = 1e-10 * norm2(b);
     report = solver.solve(b, x, stop);
@@ -93,10 +93,10 @@ TEST_P(Failure, of_a_matrix_of_zeros_is_reported_without_nan) {
 }
 TEST_P(Failure, is_forgotten_when_a_good_matrix_comes) {
   Solver solver(GetParam());
-  solver.set_matrix(matrix(node_map(144, 1), with_entry(poisson(12), 100, nan)), 1, Teuchos::null);
-  solver.set_matrix(matrix(node_map(144, 1), neumann(12)), 1, Teuchos::null);
+  solver.set_matrix(matrix(node_map(144, 1), with_entry(poisson(12), 100, nan)), 1);
+  solver.set_matrix(matrix(node_map(144, 1), neumann(12)), 1);
   const MatrixPtr A = matrix(node_map(144, 1), poisson(12));
-  solver.set_matrix(A, 1, Teuchos::null);
+  solver.set_matrix(A, 1);
   const Vector b = right_hand_side(A->getRowMap());
   Vector x(A->getDomainMap());
   LinearStop stop;
@@ -152,8 +152,10 @@ TEST(Ilu, reports_a_zero_pivot) {
   EXPECT_EQ(run.report.reason, "the incomplete factorization has a zero pivot");
 }
 TEST(Multigrid, refuses_a_saddle_system) {
-  Solver solver(params(SolverKind::gmres, K::muelu));
-  EXPECT_THROW(solver.set_matrix(matrix(node_map(100, 3), membranes(10)), 3, Teuchos::null), core::InputError);
+  for (const auto kind : {K::muelu, K::multigrid}) {
+    Solver solver(params(SolverKind::gmres, kind));
+    EXPECT_THROW(solver.set_matrix(matrix(node_map(100, 3), membranes(10)), 3), core::InputError);
+  }
 }
 
 }  // namespace thixis::algebra::testing

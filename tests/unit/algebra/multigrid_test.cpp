@@ -13,7 +13,7 @@ int iterations(const Row& row, int n, int fields, const Teuchos::RCP<const Multi
   p.preconditioner = PreconditionerKind::muelu;
   const MatrixPtr A = matrix(node_map(GlobalIndex(n) * n, fields, distribution), row);
   Solver solver(p);
-  solver.set_matrix(A, fields, xy);
+  solver.set_matrix(A, fields, {xy, {}});
   const Vector b = right_hand_side(A->getRowMap());
   Vector x(A->getDomainMap());
   LinearStop stop;

@@ -24,7 +24,7 @@ class Stopping : public ::testing::TestWithParam<SolverKind> {
   }
   LinearReport solve(const LinearParams& p, const LinearStop& stop) {
     Solver solver(p);
-    solver.set_matrix(A, 1, Teuchos::null);
+    solver.set_matrix(A, 1);
     x.putScalar(0);
     return solver.solve(b, x, stop);
   }
@@ -120,7 +120,7 @@ TEST_P(Stopping, a_solution_as_initial_guess_needs_no_iteration) {
   stop.tolerance = 1e-9 * norm2(b);
   ASSERT_TRUE(solve(params(), stop).converged);
   Solver solver(params());
-  solver.set_matrix(A, 1, Teuchos::null);
+  solver.set_matrix(A, 1);
   const LinearReport report = solver.solve(b, x, stop);
   EXPECT_TRUE(report.converged);
   EXPECT_EQ(report.iterations, 0);

@@ -125,7 +125,7 @@ algebra::Vector solve(const algebra::MatrixPtr& A, const algebra::Vector& b) {
   algebra::LinearParams params;
   params.solver = algebra::SolverKind::direct;
   algebra::Solver solver(params);
-  solver.set_matrix(A, 1, Teuchos::null);
+  solver.set_matrix(A, 1);
   algebra::Vector x(b.getMap());
   EXPECT_TRUE(solver.solve(b, x, {}).converged);
   return x;

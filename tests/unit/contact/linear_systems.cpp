@@ -185,14 +185,15 @@ TEST_P(Systems, full_reduced_and_condensed_give_the_same_increment) {
   using algebra::SolverKind;
   using algebra::SystemForm;
   std::mt19937 random(17 + core::Comm().rank());
-  const auto& space = square_.space();
   const auto plain = make(false), with_cells = make(true);
-  const auto coordinates = space.coordinates();
+  const algebra::Nodes& nodes = square_.nodes();
   const auto direct = by(SystemForm::reduced, SolverKind::direct, PreconditionerKind::none);
-  const auto cycles = by(SystemForm::reduced, SolverKind::cg, PreconditionerKind::muelu);
-  Problem full(plain, by(SystemForm::full, SolverKind::direct, PreconditionerKind::none), coordinates);
-  Problem reduced(plain, direct, coordinates), multigrid(plain, cycles, coordinates), condensed(with_cells, direct, coordinates),
-      condensed_multigrid(with_cells, cycles, coordinates);
+  const auto aggregates = by(SystemForm::reduced, SolverKind::cg, PreconditionerKind::muelu);
+  const auto levels = by(SystemForm::reduced, SolverKind::cg, PreconditionerKind::multigrid);
+  Problem full(plain, by(SystemForm::full, SolverKind::direct, PreconditionerKind::none), nodes);
+  Problem reduced(plain, direct, nodes), muelu(plain, aggregates, nodes), multigrid(plain, levels, nodes);
+  Problem condensed(with_cells, direct, nodes), condensed_muelu(with_cells, aggregates, nodes),
+      condensed_multigrid(with_cells, levels, nodes);
   Vector s(full.points()), a(full.points()), b(full.points()), X(full.map()), R(full.map());
   full.scaling(s);
   for (const auto& [rows, rows_name] : all_rows)
@@ -206,9 +207,9 @@ TEST_P(Systems, full_reduced_and_condensed_give_the_same_increment) {
       EXPECT_LT(defect(*plain, a, b, reference, R), 1e-9);
       const double size = reference.norm2();
       EXPECT_GT(size, 0);
-      for (const auto& [name, problem] :
-           {std::pair("direct", &reduced), std::pair("multigrid", &multigrid), std::pair("condensed, direct", &condensed),
-            std::pair("condensed, multigrid", &condensed_multigrid)}) {
+      for (const auto& [name, problem] : {std::pair("direct", &reduced), std::pair("muelu", &muelu), std::pair("multigrid", &multigrid),
+                                          std::pair("condensed, direct", &condensed), std::pair("condensed, muelu", &condensed_muelu),
+                                          std::pair("condensed, multigrid", &condensed_multigrid)}) {
         Vector dX(full.map());
         problem->linearize(X, a, b);
         const auto report = problem->solve(R, dX, {1e-12, 0, nullptr});
@@ -223,11 +224,10 @@ TEST_P(Systems, full_reduced_and_condensed_give_the_same_increment) {
 
 TEST_P(Systems, a_criterion_sees_the_increment_of_all_fields) {
   std::mt19937 random(5 + core::Comm().rank());
-  const auto& space = square_.space();
   const auto plain = make(false);
   for (const bool condensed : {false, true})
     for (const auto form : {algebra::SystemForm::full, algebra::SystemForm::reduced}) {
-      Problem problem(make(condensed), by(form, algebra::SolverKind::gmres, algebra::PreconditionerKind::ilu), space.coordinates());
+      Problem problem(make(condensed), by(form, algebra::SolverKind::gmres, algebra::PreconditionerKind::ilu), square_.nodes());
       Vector s(problem.points()), a(problem.points()), b(problem.points()), X(problem.map()), R(problem.map()), dX(problem.map());
       problem.scaling(s);
       derivatives(Rows::min, s, random, a, b);
@@ -259,8 +259,8 @@ TEST_P(Systems, the_scaling_makes_the_active_set_independent_of_units) {
   for (Small& weight : stiff.S.weight)
     for (int i = 0; i < stiff.fields(); ++i)
       for (int j = 0; j < stiff.fields(); ++j) weight(i, j) *= 1000;
-  const Problem a(make(false), {}, square_.space().coordinates());
-  const Problem b(std::make_shared<System>(stiff), {}, square_.space().coordinates());
+  const Problem a(make(false), {}, square_.nodes());
+  const Problem b(std::make_shared<System>(stiff), {}, square_.nodes());
   Vector s(a.points()), t(b.points());
   a.scaling(s);
   b.scaling(t);
@@ -272,11 +272,10 @@ TEST_P(Systems, the_scaling_makes_the_active_set_independent_of_units) {
 TEST_P(Systems, the_number_of_rows_is_known_before_any_is_assembled) {
   const auto plain = make(false);
   const int m = plain->fields(), p = GetParam().degree;
-  const auto coordinates = square_.space().coordinates();
   const auto params = [](algebra::SystemForm form) { return by(form, algebra::SolverKind::gmres, algebra::PreconditionerKind::ilu); };
-  const Problem full(plain, params(algebra::SystemForm::full), coordinates),
-      reduced(plain, params(algebra::SystemForm::reduced), coordinates),
-      condensed(make(true), params(algebra::SystemForm::reduced), coordinates);
+  const Problem full(plain, params(algebra::SystemForm::full), square_.nodes()),
+      reduced(plain, params(algebra::SystemForm::reduced), square_.nodes()),
+      condensed(make(true), params(algebra::SystemForm::reduced), square_.nodes());
   const auto nodes = static_cast<GlobalIndex>(plain->map()->getGlobalNumElements());
   const auto multipliers = plain->gaps() * static_cast<GlobalIndex>(plain->points()->getGlobalNumElements());
   EXPECT_EQ(full.unknowns(), m * nodes + multipliers);

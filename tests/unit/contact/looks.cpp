@@ -109,7 +109,7 @@ class Looks : public ::testing::TestWithParam<Case> {
 
 TEST_P(Looks, at_increments_allocate_nothing_after_the_first_and_take_one_product) {
   const auto system = make();
-  Problem problem(system, params_, square_.space().coordinates());
+  Problem problem(system, params_, square_.nodes());
   Vector X(problem.map()), R(problem.map()), dX(problem.map());
   X.randomize();
   R.randomize();
@@ -140,7 +140,7 @@ TEST_P(Looks, at_increments_allocate_nothing_after_the_first_and_take_one_produc
 }
 
 TEST_P(Looks, know_the_residual_without_another_product) {
-  Problem problem(make(), params_, square_.space().coordinates());
+  Problem problem(make(), params_, square_.nodes());
   Vector X(problem.map()), R(problem.map()), dX(problem.map()), Xi(problem.map()), known(problem.map()), computed(problem.map());
   X.randomize();
   problem.equations(X, R);
@@ -170,7 +170,7 @@ TEST_P(Looks, know_the_residual_without_another_product) {
 
 TEST_P(Looks, of_the_inexact_rule_allocate_nothing_after_the_first_and_take_one_product) {
   const auto system = make();
-  Problem problem(system, params_, square_.space().coordinates());
+  Problem problem(system, params_, square_.nodes());
   complementarity::NewtonParams newton;
   newton.max_iterations = 2;
   complementarity::StoppingParams stopping;

@@ -5,9 +5,11 @@
 
 #include "thixis/algebra/tpetra.hpp"
 #include "thixis/contact/problem.hpp"
+#include "thixis/fem/entry.hpp"
 #include "thixis/fem/forms.hpp"
 #include "thixis/fem/lagrange_space.hpp"
 #include "thixis/mesh/build.hpp"
+#include "thixis/method/levels.hpp"
 
 namespace thixis::contact {
 
@@ -27,7 +29,10 @@ class Square {
     method_.degree = degree;
     method_.condensation = true;
     space_ = fem::make_lagrange_space(levels_.finest(), {held, nullptr, method_});
+    method::Levels all(levels_, fem::entry(), [&](const mesh::Mesh&) { return method::SpaceOptions{held, nullptr, method_}; });
+    nodes_ = {space_->coordinates(), all.below(static_cast<int>(levels_.levels.size()) - 1)};
   }
+  const algebra::Nodes& nodes() const { return nodes_; }
   const method::Space& space() const { return *space_; }
   Vector load(const scene::FieldPtr& force) const {
     const std::vector<scene::FieldPtr> nothing(levels_.finest().tags.size());
@@ -41,6 +46,7 @@ class Square {
   method::MethodParams method_;
   mesh::Hierarchy levels_;
   std::unique_ptr<method::Space> space_;
+  algebra::Nodes nodes_;
 };
 
 inline Small of_rows(const std::vector<std::vector<double>>& rows) {

@@ -52,7 +52,7 @@ Found solve(const Square& square, const System& system, SystemForm form, SolverK
   algebra::LinearParams params;
   params.form = form;
   params.solver = solver;
-  Problem problem(std::make_shared<System>(system), params, square.space().coordinates());
+  Problem problem(std::make_shared<System>(system), params, square.nodes());
   complementarity::NewtonParams newton;
   newton.c_function = function;
   newton.sweeps = sweeps;
@@ -63,7 +63,7 @@ Found solve(const Square& square, const System& system, SystemForm form, SolverK
 
 /// |E(X) - F|, and what gaps and multipliers violate.
 void expect_solution(const Square& square, const System& system, const Vector& X) {
-  const Problem problem(std::make_shared<System>(system), {}, square.space().coordinates());
+  const Problem problem(std::make_shared<System>(system), {}, square.nodes());
   Vector R(problem.map()), K(problem.points()), G(problem.points()), s(problem.points());
   problem.equations(X, R);
   problem.arguments(X, K, G);

@@ -79,7 +79,7 @@ class Hypercircle : public testing::TestWithParam<int> {
     algebra::LinearParams params;
     params.solver = algebra::SolverKind::direct;
     algebra::Solver solver(params);
-    solver.set_matrix(S, 1, V.coordinates());
+    solver.set_matrix(S, 1, {V.coordinates(), {}});
     EXPECT_LT(solver.solve(F, x, {1e-13 * F.norm2(), 0, nullptr}).residual, 1e-10 * F.norm2());
     return V.complete(x, lift);
   }

@@ -76,7 +76,7 @@ Vector solved(const method::Form& form, const Displacement& force, const Boundar
   algebra::LinearParams params;
   params.solver = algebra::SolverKind::direct;
   algebra::Solver solver(params);
-  solver.set_matrix(method::assemble(form), 1, Teuchos::null);
+  solver.set_matrix(method::assemble(form), 1);
   const double size = F.norm2();
   EXPECT_LE(solver.solve(F, u, {1e-13 * size, 0, nullptr}).residual, 1e-10 * size);
   return u;

@@ -141,7 +141,7 @@ Vector solved(const Space& V, const FieldPtr& tension, Vector rhs) {
   algebra::LinearParams params;
   params.solver = algebra::SolverKind::direct;
   algebra::Solver solver(params);
-  solver.set_matrix(method::assemble(*diffusion(V, tension)), 1, V.coordinates());
+  solver.set_matrix(method::assemble(*diffusion(V, tension)), 1, {V.coordinates(), {}});
   EXPECT_TRUE(solver.solve(rhs, u, {1e-13 * rhs.norm2(), 0, nullptr}).residual < 1e-10 * rhs.norm2());
   return u;
 }

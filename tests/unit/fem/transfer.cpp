@@ -26,6 +26,30 @@ TEST(Transfer, keeps_polynomials_of_degree_p_in_every_component) {
   method::expect_components(entry(), of_degree(3, method::Nodes::bernstein));
 }
 
+TEST(Levels, have_hats_below_every_space) {
+  for (int p = 1; p <= 4; ++p) method::expect_hats(entry(), of_degree(p));
+  method::expect_hats(entry(), of_degree(3, method::Nodes::bernstein));
+}
+
+/// Hats are the basis of P1: their transfer is that of the space, held boundaries included.
+TEST(Levels, of_p1_are_hats) {
+  const auto hierarchy = method::mixed_levels();
+  auto options = of_degree(1);
+  options.dirichlet.assign(hierarchy.finest().tags.size(), true);
+  method::Levels levels(hierarchy, entry(), [&](const mesh::Mesh&) { return options; });
+  for (int j = 1; j < static_cast<int>(hierarchy.levels.size()); ++j) {
+    const auto P = levels.below(j).front();
+    const auto x = method::some_numbers(*levels.space(j - 1), 3);
+    algebra::Vector y(levels.space(j)->map()), z(levels.space(j)->map());
+    levels.transfer(j).apply(x, y);
+    ASSERT_TRUE(P->getDomainMap()->isSameAs(*x.getMap()));
+    P->apply(x, z);
+    z.update(-1, y, 1);
+    EXPECT_GT(y.normInf(), 0.1);
+    EXPECT_LE(z.normInf(), 1e-14) << j;
+  }
+}
+
 TEST(Levels, are_kept_until_they_are_forgotten) {
   for (const int p : {1, 3}) method::expect_kept(entry(), of_degree(p));
 }

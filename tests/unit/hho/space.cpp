@@ -47,7 +47,7 @@ Vector solved(const algebra::MatrixPtr& A, const Vector& b) {
   algebra::LinearParams params;
   params.solver = algebra::SolverKind::direct;
   algebra::Solver solver(params);
-  solver.set_matrix(A, 1, Teuchos::null);
+  solver.set_matrix(A, 1);
   EXPECT_TRUE(solver.solve(b, u, {1e-13 * b.norm2(), 0, nullptr}).residual < 1e-10 * b.norm2());
   return u;
 }

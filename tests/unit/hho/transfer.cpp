@@ -26,6 +26,11 @@ TEST(Transfer, keeps_polynomials_of_degree_p_in_every_component) {
   method::expect_components(entry(), of_degree(3, method::Nodes::bernstein));
 }
 
+TEST(Levels, have_hats_below_every_space) {
+  for (int p = 1; p <= 4; ++p) method::expect_hats(entry(), of_degree(p));
+  method::expect_hats(entry(), of_degree(3, method::Nodes::bernstein));
+}
+
 TEST(Levels, are_kept_until_they_are_forgotten) {
   for (const int p : {1, 3}) method::expect_kept(entry(), of_degree(p));
 }

@@ -77,6 +77,64 @@ inline void expect_components(const Method& method, SpaceOptions options) {
   }
 }
 
+/// min |P_1 P_2 … P_j v - y| over v by conjugate gradients on the normal equations, so that it tests Pᵀ, too.
+inline double distance_from_range(const std::vector<Teuchos::RCP<const algebra::Matrix>>& P, const algebra::Vector& y) {
+  const auto up = [&](const algebra::Vector& v) {
+    auto fine = std::make_unique<algebra::Vector>(v, Teuchos::Copy);
+    for (auto p = P.rbegin(); p != P.rend(); ++p) {
+      auto next = std::make_unique<algebra::Vector>((*p)->getRangeMap());
+      (*p)->apply(*fine, *next);
+      fine = std::move(next);
+    }
+    return fine;
+  };
+  const auto down = [&](const algebra::Vector& r) {
+    auto coarse = std::make_unique<algebra::Vector>(r, Teuchos::Copy);
+    for (const auto& p : P) {
+      auto next = std::make_unique<algebra::Vector>(p->getDomainMap());
+      p->apply(*coarse, *next, Teuchos::TRANS);
+      coarse = std::move(next);
+    }
+    return coarse;
+  };
+  algebra::Vector r(y, Teuchos::Copy);
+  auto s = down(r);
+  algebra::Vector p(*s, Teuchos::Copy);
+  double rho = s->dot(*s);
+  for (int i = 0; i < 60 && rho > 1e-28; ++i) {
+    const auto q = up(p);
+    r.update(-rho / q->dot(*q), *q, 1);
+    s = down(r);
+    const double next = s->dot(*s);
+    p.update(1, *s, next / rho);
+    rho = next;
+  }
+  return r.normInf();
+}
+
+/// Hats on all coarser meshes hold the linear functions, in whatever space they end, and nothing that is not linear.
+inline void expect_hats(const Method& method, SpaceOptions options) {
+  const auto hierarchy = mixed_levels();
+  options.dirichlet.assign(hierarchy.finest().tags.size(), false);
+  Levels levels(hierarchy, method, [&](const mesh::Mesh&) { return options; });
+  const auto linear = scene::formula([](double x, double y) { return 2 + x - 3 * y; });
+  const auto bent = scene::formula([](double x, double y) { return x * y; });
+  for (int j = 0; j < static_cast<int>(hierarchy.levels.size()); ++j) {
+    const auto space = levels.space(j);
+    const auto below = levels.below(j);
+    const bool hats_alone = space->conforming() && options.params.degree == 1;
+    ASSERT_EQ(below.size(), j + (hats_alone ? 0 : 1)) << method.name;
+    if (below.empty()) continue;
+    EXPECT_TRUE(below.front()->getRangeMap()->isSameAs(*space->map()));
+    algebra::Vector y(space->map()), z(space->map());
+    space->interpolate(*linear, 0, y);
+    space->interpolate(*bent, 0, z);
+    EXPECT_LE(distance_from_range(below, y), 1e-10) << method.name << options.params.degree << ", level " << j;
+    if (j == 0 && options.params.degree == 1) continue;  // the interpolant of anything is linear in every cell there
+    EXPECT_GE(distance_from_range(below, z), 1e-3) << method.name << options.params.degree << ", level " << j;
+  }
+}
+
 /// A polynomial goes up all levels; what is there once is there for all who ask, until it is forgotten.
 inline void expect_kept(const Method& method, SpaceOptions options) {
   const auto hierarchy = mixed_levels();

@@ -52,7 +52,7 @@ LiftEquations::LiftEquations(const method::Space& space, const View<const LocalI
   for (int alpha = 0; alpha < (constant_ ? 1 : count); ++alpha) {
     solver_[alpha] = std::make_unique<algebra::Solver>(cg);
     const auto form = method::gradient_form(mesh, quadrature, basis, *mu[alpha]);
-    solver_[alpha]->set_matrix(method::assemble(mesh.comm, graph_, elements_, *form), 1, Teuchos::null);
+    solver_[alpha]->set_matrix(method::assemble(mesh.comm, graph_, elements_, *form), 1);
   }
 }
 

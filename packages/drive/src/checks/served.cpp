@@ -70,19 +70,22 @@ void judge_symmetry(const RunParams& params, Mistakes& mistakes) {
   const method::Method& method = params.catalogue->method(params);
   const algebra::LinearParams& linear = params.linear;
   const bool cg = linear.solver == algebra::SolverKind::cg;
-  const bool muelu = linear.solver != algebra::SolverKind::direct && linear.preconditioner == algebra::PreconditionerKind::muelu;
+  const bool grids = linear.solver != algebra::SolverKind::direct && (linear.preconditioner == algebra::PreconditionerKind::muelu ||
+                                                                      linear.preconditioner == algebra::PreconditionerKind::multigrid);
+  const char* const name = linear.preconditioner == algebra::PreconditionerKind::muelu ? "muelu" : "multigrid";
   const bool full = linear.form == algebra::SystemForm::full && !params.condensed();
   if (cg && full)
     mistakes.push_back("linear/form: the full system is not symmetric, so cg can not solve it: write 'reduced', or the solver 'gmres'.");
-  if (muelu && full) mistakes.push_back("linear/form: muelu fails on the full system: write 'reduced', or the preconditioner 'ilu'.");
+  if (grids && full)
+    mistakes.push_back(fmt::format("linear/form: {} fails on the full system: write 'reduced', or the preconditioner 'ilu'.", name));
   if (method.symmetric(params.method)) return;
   const auto& [holds, condition, without, remedy] = method.symmetry;
   if (cg)
     mistakes.push_back(fmt::format(
         "linear/solver: conjugate gradients need a symmetric system, and that of {} is not: write 'gmres', or {}.", without, remedy));
-  if (muelu)
-    mistakes.push_back(
-        fmt::format("linear/preconditioner: muelu needs a symmetric system, and that of {} is not: write 'ilu', or {}.", without, remedy));
+  if (grids)
+    mistakes.push_back(fmt::format("linear/preconditioner: {} needs a symmetric system, and that of {} is not: write 'ilu', or {}.", name,
+                                   without, remedy));
 }
 
 void judge_time(const RunParams& params, Mistakes& mistakes) {

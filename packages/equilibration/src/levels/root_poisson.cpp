@@ -57,7 +57,7 @@ RootPoisson::RootPoisson(const mesh::Mesh& mesh, const std::vector<bool>& held, 
   algebra::LinearParams direct;
   direct.solver = algebra::SolverKind::direct;
   solver_ = std::make_unique<algebra::Solver>(direct);
-  solver_->set_matrix(method::assemble(mesh.comm, method::make_graph(map_, map_, row_), row_, *form), 1, Teuchos::null);
+  solver_->set_matrix(method::assemble(mesh.comm, method::make_graph(map_, map_, row_), row_, *form), 1);
 }
 
 RootPoisson::~RootPoisson() = default;

@@ -32,8 +32,11 @@ void judge(const RunParams& params, std::vector<std::string>& mistakes) {
   if (linear.solver == algebra::SolverKind::cg)
     mistakes.emplace_back(
         "linear/solver: the systems of two-phase flow are not symmetric, so cg can not solve them; write gmres or direct.");
-  if (linear.solver != algebra::SolverKind::direct && linear.preconditioner == algebra::PreconditionerKind::muelu)
+  if (linear.solver == algebra::SolverKind::direct) return;
+  if (linear.preconditioner == algebra::PreconditionerKind::muelu)
     mistakes.emplace_back("linear/preconditioner: muelu fails on the systems of two-phase flow; write ilu.");
+  if (linear.preconditioner == algebra::PreconditionerKind::multigrid)
+    mistakes.emplace_back("linear/preconditioner: multigrid fails on the systems of two-phase flow; write ilu.");
 }
 
 /// Rock of 200 m for the injection of gas, a column of 20 m, or a slab of 200 m x 20 m.

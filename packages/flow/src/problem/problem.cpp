@@ -42,7 +42,7 @@ void TwoPhaseProblem::linearize(const Vector& X, const Vector& a, const Vector& 
   at_.states = flow_.states(X);
   at_.fluxes = flow_.fluxes(at_.states, step_);
   fill_jacobian(at_, step_.length, flow_.grid(), flow_.laws(), row_scales(), a, b, *pattern_);
-  solver_.set_matrix(pattern_->matrix, unknowns_per_cell, coordinates_);
+  solver_.set_matrix(pattern_->matrix, unknowns_per_cell, {coordinates_, {}});
 }
 
 /// X <- D X, or D^{-1} X; D holds the scales of the unknowns.

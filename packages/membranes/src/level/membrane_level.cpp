@@ -54,8 +54,9 @@ MembraneLevel::MembraneLevel(const MembraneScene& scene, double origin, const st
   set_lifts();
   nothing_ = Coefficients("thixis::membranes::nothing", lift_[0].extent(0));
   set_loads();
-  problem_ =
-      std::make_unique<MembraneProblem>(membrane_operator(scene, levels->method(), form_, lift_, body_), linear, space_->coordinates());
+  const bool multigrid = linear.solver != algebra::SolverKind::direct && linear.preconditioner == algebra::PreconditionerKind::multigrid;
+  const algebra::Nodes nodes{space_->coordinates(), multigrid ? levels->below(level) : algebra::Nodes{}.below};
+  problem_ = std::make_unique<MembraneProblem>(membrane_operator(scene, levels->method(), form_, lift_, body_), linear, nodes);
   require_stiffness();
   if (scene.count == 1) obstacle_ = space_->complete(*problem_->membranes().obstacle, lift_of_obstacle());
   measure_from_rest();

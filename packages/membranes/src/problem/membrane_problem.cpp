@@ -36,17 +36,16 @@ struct CloseGap {
 
 }  // namespace
 
-MembraneProblem::MembraneProblem(MembraneOperator membranes, const algebra::LinearParams& params,
-                                 const Teuchos::RCP<const MultiVector>& coordinates)
-    : MembraneProblem(std::make_shared<MembraneOperator>(std::move(membranes)), params, coordinates) {}
+MembraneProblem::MembraneProblem(MembraneOperator membranes, const algebra::LinearParams& params, const algebra::Nodes& nodes)
+    : MembraneProblem(std::make_shared<MembraneOperator>(std::move(membranes)), params, nodes) {}
 
 MembraneProblem::MembraneProblem(const std::shared_ptr<MembraneOperator>& membranes, const algebra::LinearParams& params,
-                                 const Teuchos::RCP<const MultiVector>& coordinates)
-    : MembraneProblem(membranes, MembraneMeasure(*membranes), params, coordinates) {}
+                                 const algebra::Nodes& nodes)
+    : MembraneProblem(membranes, MembraneMeasure(*membranes), params, nodes) {}
 
 MembraneProblem::MembraneProblem(const std::shared_ptr<MembraneOperator>& membranes, const MembraneMeasure& measure,
-                                 const algebra::LinearParams& params, const Teuchos::RCP<const MultiVector>& coordinates)
-    : contact::Problem({membranes, &membranes->system}, measure.weights(), measure.reference(), params, coordinates),
+                                 const algebra::LinearParams& params, const algebra::Nodes& nodes)
+    : contact::Problem({membranes, &membranes->system}, measure.weights(), measure.reference(), params, nodes),
       membranes_(membranes),
       measure_(measure) {}
 

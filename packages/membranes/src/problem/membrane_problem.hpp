@@ -7,9 +7,7 @@ namespace thixis::membranes {
 /// Membranes in contact as the nonlinear solver sees them: X = (u_1, …, u_m, lambda) in columns, G = lambda, K = u_1 - u_2 or u_1 - psi.
 class MembraneProblem final : public contact::Problem {
  public:
-  /// `coordinates`: of the nodes, map().
-  MembraneProblem(MembraneOperator membranes, const algebra::LinearParams& params,
-                  const Teuchos::RCP<const algebra::MultiVector>& coordinates);
+  MembraneProblem(MembraneOperator membranes, const algebra::LinearParams& params, const algebra::Nodes& nodes);
 
   double noise(const algebra::Vector& X) const override;
   double gap_size(const algebra::Vector& X, const algebra::Vector& K, const algebra::Vector& G, const algebra::Vector& s) const override;
@@ -36,10 +34,9 @@ class MembraneProblem final : public contact::Problem {
   const MembraneOperator& membranes() const { return *membranes_; }  ///< whose loads may be overwritten
 
  private:
-  MembraneProblem(const std::shared_ptr<MembraneOperator>& membranes, const algebra::LinearParams& params,
-                  const Teuchos::RCP<const algebra::MultiVector>& coordinates);
+  MembraneProblem(const std::shared_ptr<MembraneOperator>& membranes, const algebra::LinearParams& params, const algebra::Nodes& nodes);
   MembraneProblem(const std::shared_ptr<MembraneOperator>& membranes, const MembraneMeasure& measure, const algebra::LinearParams& params,
-                  const Teuchos::RCP<const algebra::MultiVector>& coordinates);
+                  const algebra::Nodes& nodes);
 
   std::shared_ptr<MembraneOperator> membranes_;
   MembraneMeasure measure_;

@@ -1,5 +1,6 @@
 #include "thixis/method/space.hpp"
 
+#include "space/columns.hpp"
 #include "thixis/algebra/tpetra.hpp"
 #include "thixis/core/assert.hpp"
 
@@ -7,16 +8,6 @@ namespace thixis::method {
 namespace {
 
 using algebra::Vector;
-
-/// (element, i) -> column from (element, i) -> entry.
-ElementUnknowns columns_of(const Kokkos::View<LocalIndex**, Kokkos::LayoutRight>& entries, const View<LocalIndex*>& column_of_entry) {
-  Kokkos::View<LocalIndex**, Kokkos::LayoutRight> columns("thixis::method::element_columns", entries.extent(0), entries.extent(1));
-  Kokkos::parallel_for(
-      "thixis::method::element_columns", Kokkos::RangePolicy<>(0, entries.extent_int(0)), KOKKOS_LAMBDA(int e) {
-        for (int i = 0; i < entries.extent_int(1); ++i) columns(e, i) = entries(e, i) < 0 ? -1 : column_of_entry(entries(e, i));
-      });
-  return columns;
-}
 
 std::vector<LocalIndex> positions(const mesh::Mesh& mesh, const View<const LocalIndex*>& cells) {
   std::vector<LocalIndex> position(mesh.cells, -1);
@@ -35,6 +26,15 @@ algebra::MapPtr contact_points(const Structure& structure, const Numbering& numb
 }
 
 }  // namespace
+
+ElementUnknowns columns_of(const Kokkos::View<LocalIndex**, Kokkos::LayoutRight>& entries, const mesh::View<LocalIndex*>& column_of_entry) {
+  Kokkos::View<LocalIndex**, Kokkos::LayoutRight> columns("thixis::method::element_columns", entries.extent(0), entries.extent(1));
+  Kokkos::parallel_for(
+      "thixis::method::element_columns", Kokkos::RangePolicy<>(0, entries.extent_int(0)), KOKKOS_LAMBDA(int e) {
+        for (int i = 0; i < entries.extent_int(1); ++i) columns(e, i) = entries(e, i) < 0 ? -1 : column_of_entry(entries(e, i));
+      });
+  return columns;
+}
 
 reference::Family family(Nodes nodes) {
   switch (nodes) {

@@ -1,9 +1,15 @@
 #include "thixis/method/levels.hpp"
 
+#include <Teuchos_RCP.hpp>
+
+#include "transfer/hats.hpp"
+
 namespace thixis::method {
 
 Levels::Levels(const mesh::Hierarchy& hierarchy, Method method, std::function<SpaceOptions(const mesh::Mesh&)> options)
     : hierarchy_(hierarchy), method_(std::move(method)), options_(std::move(options)) {}
+
+Levels::~Levels() = default;
 
 std::shared_ptr<Space> Levels::space(int level) {
   auto& space = levels_[level].space;
@@ -28,7 +34,35 @@ const Transfer& Levels::transfer(int level) {
   return *transfer;
 }
 
-void Levels::keep_to(int level) { levels_.erase(levels_.upper_bound(level), levels_.end()); }
+const Hats& Levels::hats(int level) {
+  auto& hats = hats_[level].hats;
+  if (!hats) {
+    const mesh::Mesh& mesh = hierarchy_.levels.at(level);
+    hats = std::make_unique<Hats>(mesh, options_(mesh).dirichlet);
+  }
+  return *hats;
+}
+
+const Teuchos::RCP<const algebra::Matrix>& Levels::hats_in_finer(int level) {
+  auto& P = hats_[level].in_finer;
+  if (P.is_null()) P = in_finer(hats(level - 1), hats(level));
+  return P;
+}
+
+std::vector<Teuchos::RCP<const algebra::Matrix>> Levels::below(int level) {
+  const auto on = space(level);
+  const bool hats_alone = on->conforming() && on->basis().degree() == 1;
+  std::vector<Teuchos::RCP<const algebra::Matrix>> below;
+  int next = hats_alone ? level - 1 : level;
+  if (next < 0) return below;
+  for (below.push_back(in_finer(hats(next), *on)); next > 0; --next) below.push_back(hats_in_finer(next));
+  return below;
+}
+
+void Levels::keep_to(int level) {
+  levels_.erase(levels_.upper_bound(level), levels_.end());
+  hats_.erase(hats_.upper_bound(level), hats_.end());
+}
 
 void Levels::keep_from(int level) {
   levels_.erase(levels_.begin(), levels_.lower_bound(level));

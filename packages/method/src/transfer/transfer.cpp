@@ -4,8 +4,8 @@
 
 #include "thixis/algebra/tpetra.hpp"
 #include "thixis/core/assert.hpp"
-#include "thixis/mesh/ancestry.hpp"
 #include "transfer/parents.hpp"
+#include "transfer/terms.hpp"
 #include "transfer/transfer_kernels.hpp"
 
 namespace thixis::method {
@@ -14,63 +14,14 @@ namespace {
 using algebra::Vector;
 using Range = Kokkos::RangePolicy<Vector::execution_space>;
 
-/// (s, q, j): the q-th functional of the polynomial that the basis function j of the parent is in a child of shape s. The first n are its
-/// coefficients, those of traces follow.
-Kokkos::View<double***, Kokkos::LayoutRight> functionals_of_children(const reference::CellBasis& basis, const std::vector<double>& traces) {
-  const int n = basis.size(), more = static_cast<int>(traces.size()) / n;
-  const auto& shapes = mesh::child_shapes();
-  Kokkos::View<double***, Kokkos::LayoutRight> W("thixis::method::to_children", shapes.size(), n + more, n);
-  const auto out = Kokkos::create_mirror_view(W);
-  std::vector<double> at(2 * n);
-  for (std::size_t s = 0; s < shapes.size(); ++s) {
-    for (int l = 0; l < n; ++l) {
-      const double xi = basis.points()[2 * l], eta = basis.points()[2 * l + 1], lambda[3] = {1 - xi - eta, xi, eta};
-      for (int d = 0; d < 2; ++d)
-        at[2 * l + d] = lambda[0] * shapes[s][0][d + 1] + lambda[1] * shapes[s][1][d + 1] + lambda[2] * shapes[s][2][d + 1];
-    }
-    const auto table = basis.tabulate(n, at.data());
-    for (int i = 0; i < n; ++i)
-      for (int j = 0; j < n; ++j)
-        for (int l = 0; l < n; ++l) out(s, i, j) += basis.from_values()[i * n + l] * table.value[l * n + j];
-    for (int q = 0; q < more; ++q)
-      for (int j = 0; j < n; ++j)
-        for (int l = 0; l < n; ++l) out(s, n + q, j) += traces[q * n + l] * out(s, l, j);
-  }
-  Kokkos::deep_copy(W, out);
-  return W;
-}
-
-/// The terms of each unknown: of the coefficients of cells one, of the last cell that has it.
+/// The terms of each unknown of the space.
 void set_terms(const Space& fine, Restriction& by) {
-  const auto columns = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), fine.elements());
-  const LocalIndex rows = algebra::local_size(*fine.map());
   const int of_cell = fine.components() * fine.basis().size();
-  struct Terms {
-    LocalIndex cell[2] = {-1, -1};
-    int place[2] = {0, 0};
-  };
-  std::vector<Terms> terms(rows);
-  for (LocalIndex k = 0; k < columns.extent_int(0); ++k)
-    for (int i = 0; i < columns.extent_int(1); ++i) {
-      const LocalIndex row = columns(k, i);
-      if (row < 0 || row >= rows) continue;
-      const int term = i >= of_cell && terms[row].cell[0] >= 0 ? 1 : 0;
-      const bool turned = i >= of_cell && fine.layout().backwards(fine, k, (i - of_cell) / fine.components());
-      terms[row].cell[term] = k;
-      terms[row].place[term] = turned ? -1 - i : i;
-    }
-  std::vector<LocalIndex> begin(1, 0), cell;
-  std::vector<int> place;
-  for (const Terms& of_row : terms) {
-    for (int term = 0; term < 2 && of_row.cell[term] >= 0; ++term) {
-      cell.push_back(of_row.cell[term]);
-      place.push_back(of_row.place[term]);
-    }
-    begin.push_back(static_cast<LocalIndex>(cell.size()));
-  }
-  by.begin = to_view("thixis::method::transfer_begin", begin);
-  by.cell = to_view("thixis::method::transfer_cell", cell);
-  by.place = to_view("thixis::method::transfer_place", place);
+  const Terms terms = terms_of(fine.elements(), algebra::local_size(*fine.map()), of_cell,
+                               [&](LocalIndex k, int i) { return fine.layout().backwards(fine, k, (i - of_cell) / fine.components()); });
+  by.begin = to_view("thixis::method::transfer_begin", terms.begin);
+  by.cell = to_view("thixis::method::transfer_cell", terms.cell);
+  by.place = to_view("thixis::method::transfer_place", terms.place);
 }
 
 }  // namespace
@@ -92,7 +43,7 @@ struct Transfer::Impl {
 Transfer::Transfer(const Space& coarse, const Space& fine) : impl_(new Impl{coarse, fine, Parents(coarse, fine), {}}) {
   THIXIS_ASSERT_EQ(fine.basis().size(), coarse.basis().size(), "levels have the same degree");
   impl_->by.components = fine.components();
-  impl_->by.W = functionals_of_children(fine.basis(), fine.layout().trace_functionals());
+  impl_->by.W = functionals_of_children(coarse.basis(), fine.basis(), fine.layout().trace_functionals());
   impl_->by.shape = impl_->parents.shape();
   impl_->by.parent = impl_->parents.parent();
   set_terms(fine, impl_->by);

@@ -1,15 +1,16 @@
 #pragma once
 #include "kernels/polynomial_kernels.hpp"
+#include "transfer/terms.hpp"
 
 namespace thixis::method {
 
 /// How the unknowns of a space come from polynomials in the parents of its patch cells.
 struct Restriction {
   int components = 1;
-  Kokkos::View<double***, Kokkos::LayoutRight> W;  ///< (shape, q, j)
-  View<LocalIndex*> shape, parent;                 ///< of each patch cell; parents by row of `source`
-  View<LocalIndex*> begin, cell;                   ///< terms of each unknown: begin(r) <= t < begin(r+1); a patch cell
-  View<int*> place;                                ///< its place i among the unknowns of the cell; -1 - i: with the other sign
+  FunctionalsOfChildren W;
+  View<LocalIndex*> shape, parent;  ///< of each patch cell; parents by row of `source`
+  View<LocalIndex*> begin, cell;    ///< Terms
+  View<int*> place;
 
   /// The value in a cell of what stands at place i there, from `source`: (parent, j) -> position in x, -1 for 0.
   template <class X>

@@ -3,14 +3,14 @@
 #include <memory>
 #include <string>
 
-#include "thixis/algebra/fwd.hpp"
+#include "thixis/algebra/nodes.hpp"
 #include "thixis/core/schema.hpp"
 
 namespace thixis::algebra {
 
 enum class SolverKind { gmres, cg, direct };
 enum class SystemForm { full, reduced };
-enum class PreconditionerKind { none, ilu, ilut, muelu };
+enum class PreconditionerKind { none, ilu, ilut, muelu, multigrid };
 
 /// Block `linear` of the deck.
 struct LinearParams {
@@ -54,10 +54,11 @@ class Solver {
   Solver& operator=(const Solver&) = delete;
 
   /// Takes the values of a matrix and sets up the preconditioner. Call it again after the values have changed.
-  /// For MueLu: fields = unknowns per node, whose rows have the ids fields·node + 0, 1, ... and lie on one rank; coordinates of the nodes
-  /// on several ranks (rows / fields of them, in the same order), may be null, but then all levels but the finest live on one rank. MueLu
-  /// refuses zeros on the diagonal and torn nodes by InputError; what else is wrong with the matrix shows in the reports of `solve`.
-  void set_matrix(const Teuchos::RCP<const Matrix>& A, int fields, const Teuchos::RCP<const MultiVector>& coordinates);
+  /// For multigrid: fields = unknowns per node, whose rows have the ids fields·node + 0, 1, ... and lie on one rank; the nodes, rows /
+  /// fields of them in the same order. Without coordinates all levels of MueLu but the finest live on one rank; without levels below
+  /// `multigrid` is MueLu. Both refuse zeros on the diagonal, MueLu torn nodes, by InputError; what else is wrong with the matrix shows in
+  /// the reports of `solve`.
+  void set_matrix(const Teuchos::RCP<const Matrix>& A, int fields, const Nodes& nodes = {});
 
   /// Starts from x and overwrites it. Throws InputError for a combination that can not work, never leaves NaN in x unnoticed.
   LinearReport solve(const Vector& b, Vector& x, const LinearStop& stop) const;

@@ -30,13 +30,12 @@ class LinearizedSystem {
 /// diagonal of the contact rows. The rows have the weights, so that the solver sees the norm that it is judged by. The system and the
 /// weights must outlive it. Collective.
 std::unique_ptr<LinearizedSystem> make_full_system(const System& system, const Weights& weights, const algebra::LinearParams& params,
-                                                   const Teuchos::RCP<const algebra::MultiVector>& coordinates);
+                                                   const algebra::Nodes& nodes);
 
 /// In the coordinates of the frames: gaps in contact are known, multipliers of free ones are eliminated, and coordinates that do not act on
 /// each other are solved for one after the other; condensed where the operator is to be. `room`: a column for each field, whose values are
 /// lost in every call. Collective.
 std::unique_ptr<LinearizedSystem> make_reduced_system(const System& system, const Weights& weights, const algebra::LinearParams& params,
-                                                      const Teuchos::RCP<const algebra::MultiVector>& coordinates,
-                                                      const Teuchos::RCP<algebra::MultiVector>& room);
+                                                      const algebra::Nodes& nodes, const Teuchos::RCP<algebra::MultiVector>& room);
 
 }  // namespace thixis::contact

@@ -10,9 +10,8 @@ namespace thixis::contact {
 /// A contact problem as the nonlinear solver sees it: X in columns, G = lambda, K = k0 + Bᵀ u.
 class Problem : public complementarity::Problem {
  public:
-  /// Rows have the weight 1, and what acts is the load, until somebody who knows better says so. `coordinates`: of the nodes. Collective.
-  Problem(std::shared_ptr<const System> system, const algebra::LinearParams& params,
-          const Teuchos::RCP<const algebra::MultiVector>& coordinates);
+  /// Rows have the weight 1, and what acts is the load, until somebody who knows better says so. Collective.
+  Problem(std::shared_ptr<const System> system, const algebra::LinearParams& params, const algebra::Nodes& nodes);
 
   algebra::MapPtr map() const override { return map_; }
   algebra::MapPtr points() const override { return gaps_map_; }
@@ -36,7 +35,7 @@ class Problem : public complementarity::Problem {
 
  protected:
   Problem(std::shared_ptr<const System> system, Weights weights, double reference, const algebra::LinearParams& params,
-          const Teuchos::RCP<const algebra::MultiVector>& coordinates);
+          const algebra::Nodes& nodes);
   /// What the rows are measured by, and the size of what acts, as a residual.
   void measure_by(Weights weights, double reference);
   /// The values of the operator's matrices have changed; weights come anew by measure_by.
@@ -49,7 +48,7 @@ class Problem : public complementarity::Problem {
   Weights weights_;
   double reference_;
   algebra::LinearParams params_;
-  Teuchos::RCP<const algebra::MultiVector> coordinates_;
+  algebra::Nodes nodes_;
   algebra::MapPtr map_, gaps_map_;
   GlobalIndex left_;  ///< unknowns of the fields that condensation does not eliminate
   Teuchos::RCP<algebra::MultiVector> product_;

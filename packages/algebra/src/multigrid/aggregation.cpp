@@ -1,4 +1,4 @@
-#include "multigrid/multigrid.hpp"
+#include "multigrid/aggregation.hpp"
 
 #include <dlfcn.h>
 
@@ -7,6 +7,7 @@
 
 #include "factorization.hpp"
 #include "failure.hpp"
+#include "multigrid/coupled.hpp"
 #include "multigrid/muelu.hpp"
 #include "thixis/algebra/tpetra.hpp"
 #include "thixis/core/error.hpp"
@@ -65,31 +66,6 @@ class CoupledCycle : public Operator {
   Vector inverse_;  ///< 1 / a_ii in the decoupled rows, 0 in the others
 };
 
-template <class Out>
-struct MarkCoupled {
-  Matrix::local_matrix_device_type A;
-  Map::local_map_type rows, columns;
-  Out coupled;  ///< out, overwritten
-
-  KOKKOS_FUNCTION void operator()(LocalIndex i) const {
-    const LocalIndex diagonal = columns.getLocalElement(rows.getGlobalElement(i));
-    double mark = 0;
-    for (auto k = A.graph.row_map(i); k < A.graph.row_map(i + 1); ++k)
-      if (A.graph.entries(k) != diagonal && A.values(k) != 0) mark = 1;
-    coupled(i, 0) = mark;
-  }
-};
-
-/// 1 for a row with an off-diagonal entry that is not zero, else 0.
-Vector coupled_rows(const Matrix& A) {
-  Vector coupled(A.getRowMap());
-  const auto out = coupled.getLocalViewDevice(Tpetra::Access::OverwriteAll);
-  Kokkos::parallel_for(
-      "thixis::algebra::coupled_rows", Kokkos::RangePolicy<Node::execution_space>(0, local_rows(A)),
-      MarkCoupled<std::decay_t<decltype(out)>>{A.getLocalMatrixDevice(), A.getRowMap()->getLocalMap(), A.getColMap()->getLocalMap(), out});
-  return coupled;
-}
-
 /// The matrix with a small diagonal in its decoupled rows.
 Teuchos::RCP<Matrix> relaxed(const Matrix& A, const Vector& coupled, const Vector& diagonal) {
   const auto B = Teuchos::rcp(new Matrix(A.getCrsGraph()));
@@ -132,35 +108,26 @@ Teuchos::RCP<const Operator> muelu(const Teuchos::RCP<Matrix>& A, int fields, co
   return cycle;
 }
 
-class Multigrid : public Preconditioner {
+class Aggregation : public Preconditioner {
  public:
-  void set_matrix(const Teuchos::RCP<const Matrix>& A, int fields, const Teuchos::RCP<const MultiVector>& coordinates) override {
+  void set_matrix(const Teuchos::RCP<const Matrix>& A, int fields, const Nodes& nodes) override {
     ++setups_;
+    require(*A, fields);
     Vector diagonal(A->getRowMap());
     A->getLocalDiagCopy(diagonal);
-    require(*A, diagonal, fields);
     const Vector coupled = coupled_rows(*A);
     const double rows = static_cast<double>(A->getGlobalNumRows()), count = coupled.norm1();
     if (count <= coarse_rows) inverse_ = Teuchos::rcp(new Exact(A));
-    else if (count == rows) inverse_ = muelu(Teuchos::rcp_const_cast<Matrix>(A), fields, coordinates);
-    else inverse_ = Teuchos::rcp(new CoupledCycle(muelu(relaxed(*A, coupled, diagonal), fields, coordinates), coupled, diagonal));
+    else if (count == rows) inverse_ = muelu(Teuchos::rcp_const_cast<Matrix>(A), fields, nodes.coordinates);
+    else inverse_ = Teuchos::rcp(new CoupledCycle(muelu(relaxed(*A, coupled, diagonal), fields, nodes.coordinates), coupled, diagonal));
   }
   Teuchos::RCP<const Operator> inverse() const override { return inverse_; }
   int symbolic_setups() const override { return setups_; }
 
  private:
-  static void require(const Matrix& A, const Vector& diagonal, int fields) {
-    bool zero = false;
-    {
-      const auto d = host_view(diagonal);
-      for (LocalIndex i = 0; i < local_rows(A); ++i) zero = zero || d(i) == 0;
-    }
-    const core::Comm comm = comm_of(*A.getRowMap());
-    if (comm.any(zero))
-      throw core::InputError(
-          "linear/preconditioner: 'muelu' can not work on a matrix with zeros on the diagonal: write the form 'reduced', or the "
-          "preconditioner 'ilu'.");
-    if (comm.any(fields < 1 || local_rows(A) % fields != 0))
+  static void require(const Matrix& A, int fields) {
+    require_diagonal(A, "muelu");
+    if (comm_of(*A.getRowMap()).any(fields < 1 || local_rows(A) % fields != 0))
       throw core::InputError("linear/preconditioner: 'muelu' needs all unknowns of a node on one rank: write the preconditioner 'ilu'.");
   }
 
@@ -170,6 +137,6 @@ class Multigrid : public Preconditioner {
 
 }  // namespace
 
-std::unique_ptr<Preconditioner> make_multigrid() { return std::make_unique<Multigrid>(); }
+std::unique_ptr<Preconditioner> make_aggregation() { return std::make_unique<Aggregation>(); }
 
 }  // namespace thixis::algebra

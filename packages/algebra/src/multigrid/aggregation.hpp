@@ -8,6 +8,6 @@ namespace thixis::algebra {
 /// Algebraic multigrid by smoothed aggregation (MueLu) with Chebyshev smoothers, symmetric, for matrices like those of elliptic equations.
 /// P. Vanek, J. Mandel, M. Brezina (1996), doi:10.1007/BF02238511. Needs a diagonal without zeros, and the unknowns of a node side by side
 /// (throws core::InputError).
-std::unique_ptr<Preconditioner> make_multigrid();
+std::unique_ptr<Preconditioner> make_aggregation();
 
 }  // namespace thixis::algebra
