@@ -124,8 +124,34 @@ struct Sweep {
     double balanced[most_fields], diagonal[most_fields];
     balance(l, balanced, diagonal);
     const LocalIndex p = point(l);
-    if (p >= 0) keep_apart(l, p, balanced, diagonal);
+    if (p >= 0 && gaps == 1) keep_one_apart(l, p, balanced, diagonal);
+    else if (p >= 0) keep_apart(l, p, balanced, diagonal);
     for (int i = 0; i < fields; ++i) x(l, i) = balanced[i];
+  }
+  /// The same for a single gap: mu = max(0, -K/M).
+  KOKKOS_FUNCTION void keep_one_apart(int l, LocalIndex p, double* balanced, const double* diagonal) const {
+    const int last = fields - 1, kind = frames.at(l);
+    const Small &T = frames.T(kind), &Q = frames.inverse(kind);
+    const double k0 = offset.extent(0) > 0 ? offset(p, 0) : 0;
+    double K = k0, M = 0;
+    for (int i = 0; i < fields; ++i) {
+      K += Q(last, i) * balanced[i];
+      M += Q(last, i) * Q(last, i) / diagonal[i];
+    }
+    lambda(p, 0) = 0;
+    if (!(K <= 0)) return;
+    const double mu = -K / M;
+    lambda(p, 0) = mu / (damping * D(p, 0));
+    for (int i = 0; i < fields; ++i) balanced[i] += Q(last, i) * mu / diagonal[i];
+    double y[most_fields];
+    for (int i = 0; i < fields; ++i) {
+      y[i] = i == last ? -k0 : 0;
+      for (int j = 0; j < fields && i < last; ++j) y[i] += Q(i, j) * balanced[j];
+    }
+    for (int i = 0; i < fields; ++i) {
+      balanced[i] = 0;
+      for (int j = 0; j < fields; ++j) balanced[i] += T(i, j) * y[j];
+    }
   }
   KOKKOS_FUNCTION void keep_apart(int l, LocalIndex p, double* balanced, const double* diagonal) const {
     const Small& Q = frames.inverse(frames.at(l));

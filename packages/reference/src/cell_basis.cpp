@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "basix.hpp"
+#include "thixis/reference/bernstein_gradient.hpp"
 #include "thixis/reference/quadrature.hpp"
 
 namespace thixis::reference {
@@ -62,6 +63,20 @@ Bernstein bernstein(int degree) {
   for (int i = 0; i <= degree; ++i)
     for (int j = 0; i + j <= degree; ++j) lattice.insert(lattice.end(), {i / std::max(1.0, 1.0 * degree), j / std::max(1.0, 1.0 * degree)});
   return bernstein_on(lattice, degree);
+}
+
+BernsteinGradient bernstein_gradient(const Bernstein& basis) {
+  BernsteinGradient gradient;
+  gradient.degree = basis.degree;
+  gradient.lower = bernstein(basis.degree - 1);
+  for (int k = 0; k < gradient.lower.size; ++k)
+    for (int a = 0; a < 3; ++a)
+      for (int m = 0; m < basis.size; ++m) {
+        int rest = 0;  // of e(m) - e(k) - 1_a
+        for (int b = 0; b < 3; ++b) rest += std::abs(basis.exponent[m][b] - gradient.lower.exponent[k][b] - (a == b));
+        if (rest == 0) gradient.raised[k][a] = m;
+      }
+  return gradient;
 }
 
 std::vector<double> inverse(int size, const std::vector<double>& matrix) { return basix_interface::inverse(size, matrix); }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "thixis/core/error.hpp"
+#include "thixis/reference/bernstein_gradient.hpp"
 #include "thixis/reference/quadrature.hpp"
 
 namespace thixis::reference {
@@ -55,6 +56,13 @@ TEST_P(Basis, agrees_with_its_bernstein_coefficients) {
   double slope[3];
   basis.bernstein().gradient(b, lambda, slope);
   EXPECT_NEAR(slope[1] - slope[0], 2 * p * std::pow(1 + 2 * 0.5 - 0.3, p - 1), 1e-11);
+
+  const BernsteinGradient gradient = bernstein_gradient(basis.bernstein());
+  const double directions[3][2] = {{-1, -1}, {1, 0}, {0, 1}};
+  double along[2][BernsteinGradient::most];
+  gradient.coefficients(b, directions, along);
+  EXPECT_NEAR(gradient.lower.value(along[0], lambda), slope[1] - slope[0], 1e-11);
+  EXPECT_NEAR(gradient.lower.value(along[1], lambda), slope[2] - slope[0], 1e-11);
 }
 
 TEST_P(Basis, lists_functions_inside_then_of_vertices_then_of_faces) {

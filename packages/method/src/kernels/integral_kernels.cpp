@@ -1,4 +1,5 @@
 #include "kernels/polynomial_kernels.hpp"
+#include "thixis/reference/bernstein_gradient.hpp"
 
 namespace thixis::method {
 namespace {
@@ -7,12 +8,26 @@ constexpr int most = reference::max_functions;
 
 struct Moments {
   CellFunctions functions;
+  Table at_rule;
   QuadratureBlock block;
   Values f;
   Component component;
   Block2 F;  ///< out, overwritten
 
   KOKKOS_FUNCTION void operator()(int e) const {
+    if (block.own_rule(e) < 0) by_table(e);
+    else by_points(e);
+  }
+  KOKKOS_FUNCTION void by_table(int e) const {
+    const int n = functions.size(), begin = block.offset(e), points = block.offset(e + 1) - begin;
+    double sum[most] = {};
+    for (int q = 0; q < points; ++q) {
+      const double wf = block.weight(begin + q) * f(begin + q);
+      for (int l = 0; l < n; ++l) sum[l] += wf * at_rule(q, l);
+    }
+    for (int l = 0; l < n; ++l) F(e, component(l)) = sum[l];
+  }
+  KOKKOS_FUNCTION void by_points(int e) const {
     const int n = functions.size();
     double B[most], sum[most] = {};
     for (int q = block.offset(e); q < block.offset(e + 1); ++q) {
@@ -27,6 +42,7 @@ struct Moments {
 
 struct GradientError {
   CellFunctions functions;
+  reference::BernsteinGradient derivative;
   View<double* [2]> x;
   View<LocalIndex* [3]> vertices;
   QuadratureBlock block;
@@ -40,14 +56,17 @@ struct GradientError {
     double local[most], c[most];
     for (int l = 0; l < n; ++l) local[l] = u(entries(block.first + e, l));
     functions.to_bernstein(local, c);
+    double gradient[2][reference::BernsteinGradient::most], B[reference::BernsteinGradient::most];
+    derivative.coefficients(c, K.gradient, gradient);
     const bool compared = known.x.extent(0) > 0;
     for (int q = block.offset(e); q < block.offset(e + 1); ++q) {
       const double xi = block.xi(q, 0), eta = block.xi(q, 1), lambda[3] = {1 - xi - eta, xi, eta};
-      double slope[3], gradient[2] = {0, 0};
-      functions.B.gradient(c, lambda, slope);
-      for (int a = 0; a < 3; ++a)
-        for (int d = 0; d < 2; ++d) gradient[d] += slope[a] * K.gradient[a][d];
-      const double dx = gradient[0] - (compared ? known.x(q) : 0), dy = gradient[1] - (compared ? known.y(q) : 0);
+      derivative.lower.values(lambda, B);
+      double dx = compared ? -known.x(q) : 0, dy = compared ? -known.y(q) : 0;
+      for (int k = 0; k < derivative.lower.size; ++k) {
+        dx += gradient[0][k] * B[k];
+        dy += gradient[1][k] * B[k];
+      }
       sum += block.weight(q) * known.mu(q) * (dx * dx + dy * dy);
     }
   }
@@ -107,8 +126,9 @@ Kokkos::RangePolicy<> range(LocalIndex count) { return Kokkos::RangePolicy<>(0, 
 
 }  // namespace
 
-void moments(const CellFunctions& functions, const QuadratureBlock& block, const Values& f, const Component& component, const Block2& F) {
-  Kokkos::parallel_for("thixis::method::moments", range(block.cells), Moments{functions, block, f, component, F});
+void moments(const CellFunctions& functions, const Table& at_rule, const QuadratureBlock& block, const Values& f,
+             const Component& component, const Block2& F) {
+  Kokkos::parallel_for("thixis::method::moments", range(block.cells), Moments{functions, at_rule, block, f, component, F});
 }
 
 double value_error(const CellFunctions& functions, const QuadratureBlock& block, LocalIndex cells, const Values& known,
@@ -122,6 +142,7 @@ double gradient_error(const CellFunctions& functions, const mesh::Mesh& mesh, co
                       const AtPoints& known, const Entry& entries, const Coefficients& u) {
   GradientError kernel;
   kernel.functions = functions;
+  kernel.derivative = reference::bernstein_gradient(functions.B);
   kernel.x = mesh.coordinates;
   kernel.vertices = mesh.cell_vertices;
   kernel.block = block;

@@ -17,8 +17,10 @@ struct Component {
   KOKKOS_INLINE_FUNCTION int operator()(int l) const { return count * l + index; }
 };
 
-/// F(e, component(l)) = (f, psi_l)_K for the cells of the block; f(q) at its points.
-void moments(const CellFunctions& functions, const QuadratureBlock& block, const Values& f, const Component& component, const Block2& F);
+/// F(e, component(l)) = (f, psi_l)_K for the cells of the block; f(q) at its points. at_rule(q, l) = psi_l at the points of the reference
+/// rule.
+void moments(const CellFunctions& functions, const Table& at_rule, const QuadratureBlock& block, const Values& f,
+             const Component& component, const Block2& F);
 
 /// Values of mu and of a known gradient (Views of length 0: none) at the points of a block.
 struct AtPoints {

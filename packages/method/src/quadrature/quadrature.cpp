@@ -128,20 +128,24 @@ struct FillPoints {
     offset(k) = begin;
     if (k + 1 == cells) offset(k + 1) = begin + count;
 
-    const LocalIndex K = Q.cell(first + k), c = Q.own_rule(first + k);
-    const LocalIndex v0 = Q.cell_vertices(K, 0), v1 = Q.cell_vertices(K, 1), v2 = Q.cell_vertices(K, 2);
+    const LocalIndex c = Q.own_rule(first + k);
+    if (c < 0) place(k, begin, count, Q.rule_xi.data(), Q.rule_weight.data());
+    else place(k, begin, count, &Q.own_xi(Q.own_offset(c), 0), &Q.own_weight(Q.own_offset(c)));
+  }
+  KOKKOS_FUNCTION void place(LocalIndex k, int begin, int count, const double* at, const double* of_rule) const {
+    const CellQuadrature& Q = quadrature;
+    const LocalIndex K = Q.cell(first + k), v0 = Q.cell_vertices(K, 0), v1 = Q.cell_vertices(K, 1), v2 = Q.cell_vertices(K, 2);
     const double x0 = Q.coordinates(v0, 0), x1 = Q.coordinates(v1, 0) - x0, x2 = Q.coordinates(v2, 0) - x0;
     const double y0 = Q.coordinates(v0, 1), y1 = Q.coordinates(v1, 1) - y0, y2 = Q.coordinates(v2, 1) - y0;
     const double twice_volume = x1 * y2 - x2 * y1;
+    double *const to_xi = &xi(begin, 0), *const to_weight = &weight(begin), *const to_x = &x(begin), *const to_y = &y(begin);
     for (int i = 0; i < count; ++i) {
-      const GlobalIndex j = c < 0 ? i : Q.own_offset(c) + i;
-      const double a = c < 0 ? Q.rule_xi(j, 0) : Q.own_xi(j, 0), b = c < 0 ? Q.rule_xi(j, 1) : Q.own_xi(j, 1);
-      const int q = begin + i;
-      xi(q, 0) = a;
-      xi(q, 1) = b;
-      weight(q) = twice_volume * (c < 0 ? Q.rule_weight(j) : Q.own_weight(j));
-      x(q) = x0 + x1 * a + x2 * b;
-      y(q) = y0 + y1 * a + y2 * b;
+      const double a = at[2 * i], b = at[2 * i + 1];
+      to_xi[2 * i] = a;
+      to_xi[2 * i + 1] = b;
+      to_weight[i] = twice_volume * of_rule[i];
+      to_x[i] = x0 + x1 * a + x2 * b;
+      to_y[i] = y0 + y1 * a + y2 * b;
     }
   }
 };

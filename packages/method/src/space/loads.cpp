@@ -157,14 +157,18 @@ class TraceLoads {
 
 void Space::add_moments(const Function& f, double t, algebra::Vector& F) const {
   THIXIS_ASSERT_EQ(f.components(), components(), "a function for each component");
-  const View<double*> values("thixis::method::force", quadrature_.largest_block);
+  const View<double*> values(Kokkos::view_alloc(std::string("thixis::method::force"), Kokkos::WithoutInitializing),
+                             quadrature_.largest_block);
   const Block2 local("thixis::method::loads", std::min(quadrature_.block_cells, quadrature_.cells()), components() * basis_.size());
   const CellFunctions basis = cell_functions(basis_);
+  const auto rule = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), quadrature_.rule_xi);
+  const int points = rule.extent_int(0);
+  const Table at_rule = matrix_view("thixis::method::at_rule", points, basis_.size(), basis_.tabulate(points, rule.data()).value);
   for_each_block(quadrature_, [&](const QuadratureBlock& block) {
     const Block2 part = Kokkos::subview(local, std::pair(0, block.cells), Kokkos::ALL);
     for (int i = 0; i < components(); ++i) {
       evaluate(f[i], t, block, values);
-      moments(basis, block, values, {components(), i}, part);
+      moments(basis, at_rule, block, values, {components(), i}, part);
     }
     scatter(elements_, block.first, part, F);
   });

@@ -18,7 +18,7 @@ using mesh::View;
 struct CellQuadrature {
   int order = 0;                    ///< exactness of the reference rule
   View<const LocalIndex*> cell;     ///< the mesh cell at position k
-  View<const double* [2]> rule_xi;  ///< reference rule
+  View<const double* [2]> rule_xi;  ///< reference rule; row by row, as own_xi
   View<const double*> rule_weight;
   View<const LocalIndex*> own_rule;     ///< of position k: -1 for the reference rule, else c
   View<const GlobalIndex*> own_offset;  ///< points of rule c: own_offset(c) <= i < own_offset(c+1)
@@ -39,7 +39,7 @@ struct CellQuadrature {
 /// In cut cells the curve is followed to about 1e-12 of the cell. `t`: the time at which the level set is taken.
 /// Collective; throws InputError on all ranks where the level set is not finite or the order is out of range.
 CellQuadrature make_quadrature(const mesh::Mesh& mesh, const View<const LocalIndex*>& cells, int order, const scene::FieldPtr& level_set,
-                               double t = 0, LocalIndex block_cells = 16384);
+                               double t = 0, LocalIndex block_cells = 2048);
 
 /// 0, 1, …, owned_cells-1.
 View<const LocalIndex*> owned_cells(const mesh::Mesh& mesh);
@@ -78,7 +78,7 @@ class QuadraturePoints {
   QuadratureBlock block_;
 };
 
-/// Calls f(const QuadratureBlock&) for all cells in turn, some 10^4 at a time, so that values at points never fill the memory.
+/// Calls f(const QuadratureBlock&) for all cells in turn, some thousand at a time, so that values at their points stay in the cache.
 template <class F>
 void for_each_block(const CellQuadrature& quadrature, F&& f) {
   QuadraturePoints points(quadrature);
