@@ -104,7 +104,9 @@ TEST(Hierarchy, needs_about_as_many_whatever_is_in_contact) {
       for (const double scale : {1., 1e6}) EXPECT_LE(iterations(held(n, hold, 1, scale), n), most) << n;
   EXPECT_EQ(iterations(held(31, everywhere), 31), 1);
 }
-TEST(Hierarchy, takes_several_unknowns_of_a_node) { EXPECT_EQ(iterations(held(63, disk, 3), 63, 3), iterations(held(63, disk), 63)); }
+TEST(Hierarchy, takes_several_unknowns_of_a_node) {
+  EXPECT_NEAR(iterations(held(63, disk, 3), 63, 3), iterations(held(63, disk), 63), 1);  // right-hand sides differ
+}
 TEST(Hierarchy, copes_with_a_rank_without_rows) { EXPECT_LE(iterations(held(63, disk), 63, 1, Distribution::last_rank_empty), 16); }
 
 /// A cycle is one and the same whatever the matrix was before, and its patterns are found once.

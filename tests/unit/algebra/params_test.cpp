@@ -41,7 +41,8 @@ TEST(LinearParams, are_read_from_a_deck) {
   EXPECT_EQ(p.restart, LinearParams().restart);
 }
 TEST(LinearParams, that_can_not_work_together_are_refused_with_what_to_write_instead) {
-  EXPECT_NE(complaint(entry("solver", "cg") + entry("form", "reduced") + entry("preconditioner", "ilut")).find("write 'ilu' or 'muelu'"),
+  EXPECT_NE(complaint(entry("solver", "cg") + entry("form", "reduced") + entry("preconditioner", "ilut"))
+                .find("write 'multigrid', 'muelu' or 'ilu'"),
             std::string::npos);
   EXPECT_EQ(complaint(entry("solver", "direct")), "");
 }

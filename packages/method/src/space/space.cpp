@@ -9,6 +9,8 @@ namespace {
 
 using algebra::Vector;
 
+constexpr LocalIndex cells_of_block = 16384;  ///< many: forms make their buffers anew for each block of an energy
+
 std::vector<LocalIndex> positions(const mesh::Mesh& mesh, const View<const LocalIndex*>& cells) {
   std::vector<LocalIndex> position(mesh.cells, -1);
   const auto K = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), cells);
@@ -57,7 +59,7 @@ Space::Space(const mesh::Mesh& mesh, const SpaceOptions& options, Structure stru
       numbering_(number(structure_.entries, mesh.comm)),
       cells_(patch_cells(mesh)),
       position_(positions(mesh, cells_)),
-      quadrature_(make_quadrature(mesh, cells_, options.params.order(), options.level_set)),
+      quadrature_(make_quadrature(mesh, cells_, options.params.order(), options.level_set, 0, cells_of_block)),
       elements_(columns_of(structure_.element_entries, numbering_.column_of_entry)),
       coupled_(columns_of(structure_.coupled_entries, numbering_.column_of_entry)),
       graph_(make_graph(numbering_.rows, numbering_.columns, coupled_.extent(0) > 0 ? coupled_ : elements_)),
@@ -91,7 +93,7 @@ Teuchos::RCP<const algebra::MultiVector> Space::coordinates() const {
 }
 
 void Space::move_interface(double t) {
-  if (options_.level_set) quadrature_ = make_quadrature(mesh_, cells_, options_.params.order(), options_.level_set, t);
+  if (options_.level_set) quadrature_ = make_quadrature(mesh_, cells_, options_.params.order(), options_.level_set, t, cells_of_block);
 }
 
 Vector Space::with_ghosts(const Vector& u) const {
