@@ -52,7 +52,7 @@ std::unique_ptr<Preconditioner> make_preconditioner(const LinearParams& params) 
     case PreconditionerKind::ilut:
       return make_ilu(params);
     case PreconditionerKind::muelu:
-      return make_aggregation();
+      return make_aggregation("muelu");
     case PreconditionerKind::multigrid:
       return make_multigrid();
     case PreconditionerKind::none:

@@ -152,9 +152,16 @@ TEST(Ilu, reports_a_zero_pivot) {
   EXPECT_EQ(run.report.reason, "the incomplete factorization has a zero pivot");
 }
 TEST(Multigrid, refuses_a_saddle_system) {
-  for (const auto kind : {K::muelu, K::multigrid}) {
+  const MatrixPtr P = matrix(node_map(100, 1), poisson(10));  // any functions below
+  for (const auto& [kind, name, nodes] : {std::tuple(K::muelu, "'muelu'", Nodes{}), std::tuple(K::multigrid, "'multigrid'", Nodes{}),
+                                          std::tuple(K::multigrid, "'multigrid'", Nodes{Teuchos::null, {P}})}) {
     Solver solver(params(SolverKind::gmres, kind));
-    EXPECT_THROW(solver.set_matrix(matrix(node_map(100, 3), membranes(10)), 3), core::InputError);
+    try {
+      solver.set_matrix(matrix(node_map(100, 3), membranes(10)), 3, nodes);
+      FAIL() << name;
+    } catch (const core::InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(name), std::string::npos) << error.what();
+    }
   }
 }
 

@@ -31,6 +31,25 @@ TEST(Levels, have_hats_below_every_space) {
   method::expect_hats(entry(), of_degree(3, method::Nodes::bernstein));
 }
 
+/// One square across, the coarsest mesh has no vertex that is not held.
+TEST(Levels, end_where_no_hat_is_left) {
+  mesh::MeshParams params;
+  params.generator = mesh::Generator::rectangle;
+  params.cells_per_side = 1;
+  params.refinements = 2;
+  const auto hierarchy = mesh::build(params, core::Comm(), ".");
+  for (const int p : {1, 2}) {
+    auto options = of_degree(p);
+    options.dirichlet.assign(hierarchy.finest().tags.size(), true);
+    method::Levels levels(hierarchy, entry(), [&](const mesh::Mesh&) { return options; });
+    for (int j = 0; j < 3; ++j) {
+      const auto below = levels.below(j);
+      EXPECT_EQ(static_cast<int>(below.size()), std::max(0, p == 1 ? j - 1 : j)) << p << ", level " << j;
+      for (const auto& P : below) EXPECT_GT(P->getDomainMap()->getGlobalNumElements(), 0u);
+    }
+  }
+}
+
 /// Hats are the basis of P1: their transfer is that of the space, held boundaries included.
 TEST(Levels, of_p1_are_hats) {
   const auto hierarchy = method::mixed_levels();

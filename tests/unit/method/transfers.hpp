@@ -112,7 +112,7 @@ inline double distance_from_range(const std::vector<Teuchos::RCP<const algebra::
   return r.normInf();
 }
 
-/// Hats on all coarser meshes hold the linear functions, in whatever space they end, and nothing that is not linear.
+/// The hats of the coarsest mesh hold the linear functions, in whatever space they end, and not what bends in its cells.
 inline void expect_hats(const Method& method, SpaceOptions options) {
   const auto hierarchy = mixed_levels();
   options.dirichlet.assign(hierarchy.finest().tags.size(), false);

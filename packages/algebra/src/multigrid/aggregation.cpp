@@ -110,6 +110,8 @@ Teuchos::RCP<const Operator> muelu(const Teuchos::RCP<Matrix>& A, int fields, co
 
 class Aggregation : public Preconditioner {
  public:
+  explicit Aggregation(std::string name) : name_(std::move(name)) {}
+
   void set_matrix(const Teuchos::RCP<const Matrix>& A, int fields, const Nodes& nodes) override {
     ++setups_;
     require(*A, fields);
@@ -125,18 +127,20 @@ class Aggregation : public Preconditioner {
   int symbolic_setups() const override { return setups_; }
 
  private:
-  static void require(const Matrix& A, int fields) {
-    require_diagonal(A, "muelu");
+  void require(const Matrix& A, int fields) const {
+    require_diagonal(A, name_);
     if (comm_of(*A.getRowMap()).any(fields < 1 || local_rows(A) % fields != 0))
-      throw core::InputError("linear/preconditioner: 'muelu' needs all unknowns of a node on one rank: write the preconditioner 'ilu'.");
+      throw core::InputError("linear/preconditioner: '" + name_ +
+                             "' needs all unknowns of a node on one rank: write the preconditioner 'ilu'.");
   }
 
+  std::string name_;
   Teuchos::RCP<const Operator> inverse_;
   int setups_ = 0;
 };
 
 }  // namespace
 
-std::unique_ptr<Preconditioner> make_aggregation() { return std::make_unique<Aggregation>(); }
+std::unique_ptr<Preconditioner> make_aggregation(const std::string& name) { return std::make_unique<Aggregation>(name); }
 
 }  // namespace thixis::algebra

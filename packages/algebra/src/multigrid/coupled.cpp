@@ -36,7 +36,7 @@ Vector coupled_rows(const Matrix& A) {
   return coupled;
 }
 
-void require_diagonal(const Matrix& A, const char* name) {
+void require_diagonal(const Matrix& A, const std::string& name) {
   Vector diagonal(A.getRowMap());
   A.getLocalDiagCopy(diagonal);
   int zeros = 0;

@@ -1,4 +1,6 @@
 #pragma once
+#include <string>
+
 #include "thixis/algebra/fwd.hpp"
 
 namespace thixis::algebra {
@@ -7,6 +9,6 @@ namespace thixis::algebra {
 Vector coupled_rows(const Matrix& A);
 
 /// Throws core::InputError where the diagonal has a zero. Collective. `name`: of the preconditioner in the deck.
-void require_diagonal(const Matrix& A, const char* name);
+void require_diagonal(const Matrix& A, const std::string& name);
 
 }  // namespace thixis::algebra

@@ -35,7 +35,7 @@ class Coarsest {
     Kokkos::parallel_for("thixis::algebra::strengthen", Kokkos::RangePolicy<Node::execution_space>(0, local.numRows()), Strengthen{local});
     const bool small = static_cast<GlobalIndex>(A->getGlobalNumRows()) <= factorized_rows;
     if (small) return lu_.set_matrix(A);
-    if (!aggregation_) aggregation_ = make_aggregation();
+    if (!aggregation_) aggregation_ = make_aggregation("multigrid");
     aggregation_->set_matrix(A, fields, {});
   }
   void solve(const Vector& b, Vector& x) const {
@@ -123,9 +123,10 @@ class Multigrid final : public Preconditioner {
  public:
   void set_matrix(const Teuchos::RCP<const Matrix>& A, int fields, const Nodes& nodes) override {
     if (nodes.below.empty()) {
-      if (!aggregation_) aggregation_ = make_aggregation();
+      if (!aggregation_) aggregation_ = make_aggregation("multigrid");
       return aggregation_->set_matrix(A, fields, nodes);
     }
+    aggregation_.reset();
     require_diagonal(*A, "multigrid");
     if (graph_ != A->getCrsGraph()) make_cycle(A, fields, nodes);
     cycle_->set_matrix(*A, fields);

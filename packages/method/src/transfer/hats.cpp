@@ -4,9 +4,11 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <tuple>
 
 #include "space/columns.hpp"
 #include "thixis/algebra/structure.hpp"
+#include "thixis/core/assert.hpp"
 #include "thixis/method/continuous_nodes.hpp"
 #include "transfer/terms.hpp"
 
@@ -170,10 +172,16 @@ View to_device(const std::string& label, const std::vector<T>& values) {
 }
 
 Teuchos::RCP<const algebra::Matrix> in_finer(const Hats& coarse, const Finer& fine) {
-  const Rows rows = rows_of(coarse, fine);
+  Rows rows = rows_of(coarse, fine);
   const Columns columns(*coarse.map(), rows.hat);
   std::vector<LocalIndex> entries(rows.hat.size());
-  std::transform(rows.hat.begin(), rows.hat.end(), entries.begin(), columns);
+  std::vector<std::pair<LocalIndex, double>> row;
+  for (std::size_t r = 0; r + 1 < rows.begin.size(); ++r) {
+    row.clear();
+    for (std::size_t t = rows.begin[r]; t < rows.begin[r + 1]; ++t) row.emplace_back(columns(rows.hat[t]), rows.weight[t]);
+    std::sort(row.begin(), row.end());
+    for (std::size_t k = 0; k < row.size(); ++k) std::tie(entries[rows.begin[r] + k], rows.weight[rows.begin[r] + k]) = row[k];
+  }
   const core::Comm& comm = coarse.mesh().comm;
   return algebra::make_matrix(fine.rows, comm.size() == 1 ? coarse.map() : algebra::map_of(columns.ids(), comm), coarse.map(),
                               to_device<algebra::RowMap>("thixis::method::hats_rows", rows.begin),
@@ -205,6 +213,7 @@ Teuchos::RCP<const algebra::Matrix> in_finer(const Hats& coarse, const Hats& fin
 }
 
 Teuchos::RCP<const algebra::Matrix> in_finer(const Hats& coarse, const Space& fine) {
+  THIXIS_ASSERT_EQ(fine.components(), 1, "hats are scalar functions");
   const int n = fine.basis().size();
   const auto backwards = [&](LocalIndex k, int i) { return fine.layout().backwards(fine, k, i - n); };
   return in_finer(coarse, Finer{fine.mesh(), to_host(fine.cells()), fine.map(),

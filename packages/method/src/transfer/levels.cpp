@@ -1,7 +1,6 @@
 #include "thixis/method/levels.hpp"
 
-#include <Teuchos_RCP.hpp>
-
+#include "thixis/algebra/tpetra.hpp"
 #include "transfer/hats.hpp"
 
 namespace thixis::method {
@@ -52,10 +51,10 @@ const Teuchos::RCP<const algebra::Matrix>& Levels::hats_in_finer(int level) {
 std::vector<Teuchos::RCP<const algebra::Matrix>> Levels::below(int level) {
   const auto on = space(level);
   const bool hats_alone = on->conforming() && on->basis().degree() == 1;
+  const auto empty = [&](int of) { return hats(of).map()->getGlobalNumElements() == 0; };
   std::vector<Teuchos::RCP<const algebra::Matrix>> below;
-  int next = hats_alone ? level - 1 : level;
-  if (next < 0) return below;
-  for (below.push_back(in_finer(hats(next), *on)); next > 0; --next) below.push_back(hats_in_finer(next));
+  if (!hats_alone && !empty(level)) below.push_back(in_finer(hats(level), *on));
+  for (int next = level; next > 0 && !empty(next - 1); --next) below.push_back(hats_in_finer(next));
   return below;
 }
 

@@ -28,7 +28,8 @@ class Levels {
   /// P_level, from the level before. Valid as long as both levels are kept.
   const Transfer& transfer(int level);
   /// The coarser functions below the space of that level, as multigrid takes them (algebra::Nodes::below): hats of its mesh, unless they
-  /// are the space, and of all coarser ones. Kept while finer levels may ask for them, whatever else is let go. Scalar spaces.
+  /// are the space, and of all coarser ones that have any. Kept while finer levels may ask for them, whatever else is let go. Scalar
+  /// spaces.
   std::vector<Teuchos::RCP<const algebra::Matrix>> below(int level);
 
   /// Lets go of all levels before this one, and of the transfer to it.
